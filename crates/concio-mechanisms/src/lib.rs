@@ -25,6 +25,7 @@ pub mod pushover;
 pub mod rocking;
 pub mod setback;
 pub mod side_wall;
+mod supports;
 pub mod survey;
 pub mod time_history;
 pub mod vertical_arch;

@@ -11,22 +11,35 @@ pub(crate) fn least(tried: usize, from: f64, to: f64, value: impl Fn(f64) -> f64
             (best, lowest) = (i, found);
         }
     }
+    // The lowest so far: an end of the interval, or of where the function is defined, may be lower than all that lies inside.
+    let mut found = (at(best), lowest);
+    let mut tell = |x: f64| {
+        let value = value(x);
+        if value < found.1 {
+            found = (x, value);
+        }
+        (value, found.0)
+    };
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     let (mut low, mut high) = (at(best.saturating_sub(1)), at((best + 1).min(tried)));
     let mut points = [high - golden * (high - low), low + golden * (high - low)];
-    let mut values = points.map(&value);
+    let mut values = points.map(|x| tell(x).0);
+    let mut lowest_at = at(best);
     for _ in 0..80 {
-        if values[0] < values[1] {
+        // Where both points are undefined, the lowest so far tells on which side it is not.
+        let down = values[0] < values[1] || (values[0] == values[1] && lowest_at < 0.5 * (low + high));
+        let value;
+        if down {
             high = points[1];
             points = [high - golden * (high - low), points[0]];
-            values = [value(points[0]), values[0]];
+            (value, lowest_at) = tell(points[0]);
+            values = [value, values[0]];
         } else {
             low = points[0];
             points = [points[1], low + golden * (high - low)];
-            values = [values[1], value(points[1])];
+            (value, lowest_at) = tell(points[1]);
+            values = [values[1], value];
         }
     }
-    // An end of the interval may be lower than all that lies inside.
-    let inside = 0.5 * (low + high);
-    if value(inside) <= lowest { inside } else { at(best) }
+    found.0
 }

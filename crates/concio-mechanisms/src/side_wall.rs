@@ -6,8 +6,8 @@
 //!
 //! are the wedge's weight and the friction of the overlaps l along an upright crack (part of (OP4)). f = ½ is the sum of what n courses press
 //! on n overlaps (derived); (C8.7.1.2) of the Circolare has f = 0.4, and F at h_w/3. Friction falls with the slope of the crack as
-//! 1 − tan β/tan β_b, tan β_b = l/h_b (after Casapulla and co-workers, not read again). A load q on the side wall adds n μ q l at h_w/2; its
-//! weight on the wedge is left out.
+//! 1 − tan β/tan β_b, tan β_b = l/h_b (after Casapulla and co-workers, not read again). A load q on the side wall adds n μ q l at
+//! h_w/2 · (n−1)/n, on the same bed joints.
 
 use crate::body::{Hold, HoldLaw};
 
@@ -74,12 +74,12 @@ impl SideWall {
         let n = height / self.course;
         let force = overlaps.factor() * n * (n + 1.0) * self.friction * self.specific_weight * self.thickness;
         let force = force * self.overlap * self.course;
-        let at = match overlaps {
-            Overlaps::CodeAtThird => height / 3.0,
+        let reach = match overlaps {
+            Overlaps::CodeAtThird => height,
             // Less than a course over the hinge shears no overlap.
-            _ => height / 3.0 * (n - 1.0).max(0.0) / n,
+            _ => height * (n - 1.0).max(0.0) / n,
         };
-        force * at + n * self.friction * self.load * self.overlap * 0.5 * height
+        force * reach / 3.0 + n * self.friction * self.load * self.overlap * 0.5 * reach
     }
 
     /// Part of that friction which a crack of slope tan β leaves.
@@ -115,11 +115,7 @@ impl SideWall {
         let mut holds = Vec::new();
         for k in 1..=n as usize {
             let (k, low) = (k as f64, height - k as f64 * self.course);
-            holds.push(Hold { force: kept * pressed * k, depth: 0.0, height: low, law });
-            if loaded > 0.0 {
-                // In the middle of the course: n forces then have their resultant at h_w/2.
-                holds.push(Hold { force: kept * loaded, depth: 0.0, height: low + 0.5 * self.course, law });
-            }
+            holds.push(Hold { force: kept * (pressed * k + loaded), depth: 0.0, height: low, law });
         }
         holds
     }

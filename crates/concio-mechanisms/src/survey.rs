@@ -10,6 +10,7 @@ use crate::horizontal_arch::HorizontalArch;
 use crate::overturning::{Facade, Overturning};
 use crate::pushover::{Kinematics, Pushover};
 use crate::side_wall::{Overlaps, SideWall};
+use crate::supports::{Supports, Yielding, stands};
 use crate::vertical_arch::VerticalArch;
 use crate::wall::{FloorOf, Side, Wall};
 
@@ -191,26 +192,24 @@ const LOWEST: f64 = 1e-3;
 /// Makes the survey of a wall; `overlaps` is the sum of the friction of overlaps.
 pub fn survey(wall: &Wall, overlaps: Overlaps) -> Survey {
     let mut survey = Survey { found: Vec::new(), without: Vec::new() };
-    let mut making = Making {
-        wall,
-        overlaps,
-        floors: wall.floors.iter().map(|f| f.floor).collect(),
-        holding: wall.floors.iter().map(|f| f.holds).collect(),
-        gave: Vec::new(),
-    };
-    // First: what gives way in them holds no longer in the others.
+    let supports = Supports::of(wall);
+    let floors = wall.floors.iter().map(|f| f.floor).collect();
+    let mut making = Making { wall, overlaps, supports, floors, held: 0.0 };
     let arches = making.vertical_arches();
+    making.hold(&arches);
     making.overturning(&mut survey);
     making.leaf(&mut survey);
-    if arches.is_empty() {
-        let why = "nothing holds the wall above a bed joint (holds = true or connection at out_of_plane.floor, out_of_plane.anchor)";
-        survey.without.push((Kind::VerticalArch, why.into()));
-    }
-    survey.found.extend(arches);
+    let (at, without) = (survey.found.len(), survey.without.len());
     making.strip(&mut survey);
     making.corners(&mut survey);
     making.flaps(&mut survey);
     making.gable(&mut survey);
+    let arches = making.told(arches, &survey);
+    if arches.is_empty() {
+        let why = "nothing holds the wall above a bed joint (holds = true or connection at out_of_plane.floor, out_of_plane.anchor)";
+        survey.without.insert(without, (Kind::VerticalArch, why.into()));
+    }
+    survey.found.splice(at..at, arches);
     survey
 }
 
@@ -240,12 +239,11 @@ impl Survey {
 struct Making<'w> {
     wall: &'w Wall,
     overlaps: Overlaps,
-    /// Floors as they are: of one that gives way, the force that it does at is its connection.
+    supports: Supports<'w>,
+    /// Floors as corners and flaps have them: where the course of one slides, it stays.
     floors: Vec<Floor>,
-    /// Which of them hold the wall.
-    holding: Vec<bool>,
-    /// Level [m] of each that gives way, and the force [N].
-    gave: Vec<[f64; 2]>,
+    /// Level of the highest floor that holds whatever pushes [m]; 0 without one.
+    held: f64,
 }
 
 /// A storey that bends outwards.
@@ -259,13 +257,16 @@ struct Storey {
     needed: f64,
     borne: Option<f64>,
     rubs: f64,
+    /// Whether a floor holds its top, by `holds`.
+    holds: bool,
+    /// What gives way between its ends.
+    notes: Vec<String>,
 }
 
 impl Storey {
-    /// The force [N] at which the support gives way, where that is less than it needs.
-    fn gives_way(&self) -> Option<f64> {
-        let bears = self.borne.unwrap_or(f64::INFINITY).min(self.rubs);
-        (self.needed > bears).then_some(bears)
+    /// Whether the support has less than its top needs.
+    fn gives_way(&self) -> bool {
+        self.needed > self.borne.unwrap_or(f64::INFINITY).min(self.rubs)
     }
 }
 
@@ -377,27 +378,50 @@ impl Making<'_> {
         });
     }
 
-    /// Level of the highest floor that holds the wall; 0 without one.
-    fn held(&self) -> f64 {
-        self.holding_floors().map(|f| f.floor.level).fold(0.0, f64::max)
-    }
-
     /// Why nothing turns about a joint, where a floor holds the wall at its top.
     fn held_at_top(&self) -> Option<String> {
-        let held = self.held();
+        let held = self.held;
         let none = held > 0.0 && self.levels(held).next().is_none();
         none.then(|| format!("a floor holds the wall at {held:.2} m, its top"))
     }
 
-    fn facade<'f>(&'f self, side_walls: &'f [SideWall]) -> Facade<'f> {
-        let wall = self.wall;
-        Facade {
-            masonry: &wall.masonry,
-            floors: &self.floors,
-            ties: &wall.ties,
-            side_walls,
-            crushing: wall.crushing,
-            overlaps: self.overlaps,
+    fn facade<'f>(&self, yields: &'f Yielding) -> Facade<'f> {
+        let Yielding { masonry, floors, ties, .. } = yields;
+        Facade { masonry, floors, ties, side_walls: &[], crushing: self.wall.crushing, overlaps: self.overlaps }
+    }
+
+    /// The least over what gives way, about a joint; none where a floor holds the course on it.
+    fn turned(&self, hinge: f64, side_walls: &[SideWall], overlaps: Overlaps) -> Option<(Overturning, Yielding)> {
+        if self.supports.blocks(hinge) {
+            return None;
+        }
+        let make = |yields: &Yielding| {
+            let facade = Facade { overlaps, side_walls, ..self.facade(yields) };
+            Some(facade.least(hinge))
+        };
+        self.supports.least([hinge, f64::INFINITY], make, |found| found.multiplier)
+    }
+
+    /// Which floors hold whatever pushes: not those whose course slides before the least arch sets off, for then its R does not get through.
+    fn hold(&mut self, arches: &[Storey]) {
+        let least = arches.iter().map(|s| s.arch.multiplier()).fold(f64::INFINITY, f64::min);
+        let bonded: Vec<SideWall> = self.wall.side_walls.iter().map(|s| s.wall).collect();
+        let sides: &[SideWall] = if self.one_sided() { &[] } else { &bonded };
+        let top = self.supports.rigid().fold(0.0, f64::max);
+        let slides = |hinge: &f64| {
+            least.is_finite()
+                && self.turned(*hinge, sides, self.overlaps).is_some_and(|(found, _)| found.multiplier < least)
+        };
+        let lowest = self.levels(0.0).filter(|z| *z < top - LEVEL).find(slides).unwrap_or(f64::INFINITY);
+        self.held = self.supports.rigid().filter(|z| *z <= lowest + LEVEL).fold(0.0, f64::max);
+        let slid: Vec<f64> = self.supports.rigid().filter(|z| *z > lowest + LEVEL).collect();
+        let forces = self.supports.at(0.0, [lowest, f64::INFINITY]).forces;
+        for floor in &mut self.floors {
+            let near = |z: f64| (z - floor.level).abs() < LEVEL;
+            let force = forces.iter().find(|(z, ..)| near(*z)).filter(|_| slid.iter().any(|z| near(*z)));
+            if let Some((_, rubs, _)) = force {
+                *floor = stands(floor, *rubs);
+            }
         }
     }
 
@@ -407,12 +431,12 @@ impl Making<'_> {
     }
 
     fn overturning(&self, survey: &mut Survey) {
-        let held = self.held();
+        let held = self.held;
         let sides: Vec<SideWall> = self.wall.side_walls.iter().map(|s| s.wall).collect();
         let bonded = !sides.is_empty();
         for hinge in self.levels(held) {
-            let found = self.facade(&[]).least(hinge);
-            let mut notes = self.of_supports(hinge);
+            let Some((found, yields)) = self.turned(hinge, &[], self.overlaps) else { continue };
+            let mut notes = self.of_supports(hinge, &yields);
             let alone = self.one_sided();
             match (bonded, alone) {
                 (true, false) => notes.push("for comparison: as if the side walls were not bonded".into()),
@@ -427,7 +451,7 @@ impl Making<'_> {
                 }
                 _ => {}
             }
-            let sliding = self.sliding(hinge);
+            let sliding = self.sliding(hinge, &yields);
             if sliding < found.multiplier * (1.0 - 1e-9) {
                 let (what, level) = (Kind::Overturning.what(), hinge);
                 notes.push(format!("the bed joint at {level:.2} m slides at α = {sliding:.4}, before the {what}: no check here knows that"));
@@ -449,18 +473,16 @@ impl Making<'_> {
             return;
         }
         for hinge in self.levels(held) {
-            let found = self.facade(&sides).least(hinge);
+            let Some((found, yields)) = self.turned(hinge, &sides, self.overlaps) else { continue };
             let wedges = self.wall.side_walls.iter().zip(&found.slopes).map(|(s, slope)| [s.at, *slope]).collect();
-            let mut notes = self.of_supports(hinge);
+            let mut notes = self.of_supports(hinge, &yields);
             if sides.len() == 1 {
                 notes.push("one side wall alone: the façade twists about it, and α0 is about a tenth too high".into());
             } else if self.one_sided() {
                 notes.push("all side walls stand in one half: the façade twists about them, and α0 is too high".into());
             }
-            let code = Facade { overlaps: Overlaps::Code, ..self.facade(&sides) }.least(hinge);
-            if self.overlaps != Overlaps::Code {
-                notes.push(format!("with f = 0.4 of the code α0 is {:.4}", code.multiplier));
-            }
+            let code = self.turned(hinge, &sides, Overlaps::Code).filter(|_| self.overlaps != Overlaps::Code);
+            notes.extend(code.map(|(code, _)| format!("with f = 0.4 of the code α0 is {:.4}", code.multiplier)));
             self.turn(survey, Kind::WithSideWalls, found, true, wedges, notes);
         }
     }
@@ -474,11 +496,10 @@ impl Making<'_> {
     }
 
     /// What to know of what holds the part over a hinge back.
-    fn of_supports(&self, hinge: f64) -> Vec<String> {
-        let gave = self.gave.iter().filter(|[high, _]| *high > hinge + LEVEL);
-        let gave = gave.map(|[high, bears]| format!("the floor at {high:.2} m gives way at {:.2} kN", 1e-3 * bears));
-        let facade = self.facade(&[]);
-        let lost = self.wall.ties.iter().filter(|tie| tie.level > hinge + LEVEL).filter_map(|tie| {
+    fn of_supports(&self, hinge: f64, yields: &Yielding) -> Vec<String> {
+        let gave = yields.told([hinge, f64::INFINITY]);
+        let facade = self.facade(yields);
+        let lost = yields.ties.iter().filter(|tie| tie.level > hinge + LEVEL).filter_map(|tie| {
             let bears = facade.tie(hinge, tie);
             (bears < (1.0 - 1e-9) * tie.force).then(|| {
                 format!(
@@ -489,20 +510,20 @@ impl Making<'_> {
                 )
             })
         });
-        gave.chain(lost).collect()
+        gave.into_iter().chain(lost).collect()
     }
 
     /// α at which the bed joint on a level slides, as if side walls did not hold what lies above.
-    fn sliding(&self, hinge: f64) -> f64 {
-        let own = self.wall.masonry.above(hinge).weight;
+    fn sliding(&self, hinge: f64, yields: &Yielding) -> f64 {
+        let own = yields.masonry.above(hinge).weight;
         let (mut holds, mut masses) = (self.wall.friction * own, own);
-        for floor in self.floors.iter().filter(|f| f.level > hinge + LEVEL) {
+        for floor in yields.floors.iter().filter(|f| f.level > hinge + LEVEL) {
             let rubs = (self.wall.friction + floor.friction) * floor.load;
             holds += rubs + floor.connection - floor.thrust;
             masses += floor.load + floor.pushing;
         }
-        let facade = self.facade(&[]);
-        holds += self.wall.ties.iter().filter(|t| t.level > hinge + LEVEL).map(|t| facade.tie(hinge, t)).sum::<f64>();
+        let facade = self.facade(yields);
+        holds += yields.ties.iter().filter(|t| t.level > hinge + LEVEL).map(|t| facade.tie(hinge, t)).sum::<f64>();
         holds / masses
     }
 
@@ -539,8 +560,16 @@ impl Making<'_> {
             self.wall.masonry.pieces.iter().map(|p| crate::facade::Piece { weight: part * p.weight, ..*p }).collect();
         let masonry = Masonry { thickness, pieces };
         for hinge in self.levels(0.0) {
-            let on_it: Vec<Floor> = self.floors.iter().filter(|f| f.depth < thickness - LEVEL).copied().collect();
-            let facade = Facade { masonry: &masonry, floors: &on_it, side_walls: &[], ..self.facade(&[]) };
+            let floors = self.wall.floors.iter().map(|f| f.floor);
+            let on_it: Vec<Floor> = floors.filter(|f| f.depth < thickness - LEVEL).collect();
+            let facade = Facade {
+                masonry: &masonry,
+                floors: &on_it,
+                ties: &self.wall.ties,
+                side_walls: &[],
+                crushing: self.wall.crushing,
+                overlaps: self.overlaps,
+            };
             let rest = match on_it.len() {
                 0 => "floors are taken to rest on the inner leaf".to_string(),
                 _ => format!(
@@ -554,91 +583,72 @@ impl Making<'_> {
         }
     }
 
-    /// Storeys between levels that hold the wall. A floor whose reaction is more than what bears it gives way: it holds as a tie does from
-    /// then on, in these and all other mechanisms.
-    fn vertical_arches(&mut self) -> Vec<Found> {
-        let mut found = Vec::new();
-        let mut lower = 0.0;
-        for at in 0..self.wall.floors.len() {
-            if !self.holding[at] {
-                continue;
-            }
-            let upper = self.wall.floors[at];
-            let high = upper.floor.level;
-            let Some(storey) = self.storey([lower, high], &upper) else { continue };
-            if let Some(bears) = storey.gives_way() {
-                self.holding[at] = false;
-                // Ties near it hold by themselves from then on.
-                let rest = (bears - self.wall.beside(high)).max(0.0);
-                for (floor, own) in self.floors.iter_mut().zip(&self.wall.floors) {
-                    if (own.floor.level - high).abs() < LEVEL {
-                        floor.connection = if own.floor.level == high { rest } else { own.floor.connection };
-                        floor.friction = 0.0;
-                    }
-                }
-                self.gave.push([high, bears]);
-            } else {
-                lower = high;
-            }
-            found.push(self.found(storey));
-        }
-        found.extend(self.spanning());
-        found.extend(self.held_by_ties());
-        found
-    }
-
-    /// Arches past floors that hold, but with a force that is known: with it, they are as likely as those between.
-    fn spanning(&self) -> Vec<Found> {
-        let kept: Vec<&FloorOf> = self.holding_floors().collect();
-        let mut found = Vec::new();
-        for (k, upper) in kept.iter().enumerate().skip(1) {
-            for from in (0..k).rev() {
-                // The floor that is passed has to have a force.
-                if self.wall.borne(kept[from]).is_none() {
-                    break;
-                }
-                let low = from.checked_sub(1).map_or(0.0, |below| kept[below].floor.level);
-                let storey = self.storey([low, upper.floor.level], upper).filter(|storey| storey.gives_way().is_none());
-                found.extend(storey.map(|storey| self.found(storey)));
+    /// Storeys between any two levels that hold the wall, each with what gives way between them at its full force.
+    fn vertical_arches(&self) -> Vec<Storey> {
+        let tops = self.tops();
+        let feet = self.feet(&tops);
+        let rigid: Vec<f64> = self.supports.rigid().collect();
+        let (mut between, mut past) = (Vec::new(), Vec::new());
+        for &low in feet.iter().filter(|low| !self.supports.blocks(**low)) {
+            for top in tops.iter().filter(|top| top.floor.level > low + LEVEL) {
+                let levels = [low, top.floor.level];
+                let make = |yields: &Yielding| self.storey(levels, top, yields);
+                let Some((mut storey, yields)) = self.supports.least(levels, make, |s| s.arch.multiplier()) else {
+                    continue;
+                };
+                storey.notes = yields.told(levels);
+                let passes = rigid.iter().any(|z| *z > low + LEVEL && *z < levels[1] - LEVEL);
+                if passes { past.push(storey) } else { between.push(storey) }
             }
         }
-        found
+        // Past a floor without a known force only where its course slides first.
+        let least = between.iter().map(|s| s.arch.multiplier()).fold(f64::INFINITY, f64::min);
+        between.extend(past.into_iter().filter(|s| s.arch.multiplier() < least));
+        between.sort_by(|a, b| a.levels[0].total_cmp(&b.levels[0]).then(a.levels[1].total_cmp(&b.levels[1])));
+        between
     }
 
-    /// Storeys below ties and connections, which hold the wall there as long as they bear its reaction.
-    fn held_by_ties(&self) -> Vec<Found> {
+    /// What may hold the top of an arch: floors that hold, connections, and ties that are not beside one of them.
+    fn tops(&self) -> Vec<FloorOf> {
         let wall = self.wall;
-        let connected =
-            wall.floors.iter().zip(&self.floors).filter(|(own, floor)| !own.holds && floor.connection > 0.0);
-        let mut supports: Vec<FloorOf> = connected.map(|(own, _)| *own).collect();
-        for tie in &wall.ties {
-            let near = |of: &FloorOf| wall.is_beside(tie, of.floor.level);
-            if !supports.iter().chain(&wall.floors).any(|of| (of.holds || of.floor.connection > 0.0) && near(of)) {
-                let floor = Floor { level: tie.level, ..Floor::default() };
-                supports.push(FloorOf { floor, given: false, holds: false, clamps: false });
+        let mut tops: Vec<FloorOf> = Vec::new();
+        let holding = wall.floors.iter().filter(|f| f.holds);
+        for own in holding.chain(wall.floors.iter().filter(|f| !f.holds && f.floor.connection > 0.0)) {
+            if tops.iter().all(|top| (top.floor.level - own.floor.level).abs() > LEVEL) {
+                tops.push(*own);
             }
         }
-        let below = |support: &FloorOf| {
-            let under = self.holding_floors().map(|f| f.floor.level).filter(|z| *z < support.floor.level - LEVEL);
-            under.fold(0.0, f64::max)
-        };
-        let under = supports.iter().filter(|of| self.holding_floors().all(|f| f.floor.level != of.floor.level));
-        let storeys = under.filter_map(|support| self.storey([below(support), support.floor.level], support));
-        storeys.filter(|storey| storey.gives_way().is_none()).map(|storey| self.found(storey)).collect()
+        for tie in &wall.ties {
+            if !tops.iter().any(|top| wall.is_beside(tie, top.floor.level)) {
+                let floor = Floor { level: tie.level, ..Floor::default() };
+                tops.push(FloorOf { floor, given: false, holds: false, clamps: false });
+            }
+        }
+        tops
     }
 
-    /// Floors that hold the wall, from below.
-    fn holding_floors(&self) -> impl Iterator<Item = &FloorOf> {
-        self.wall.floors.iter().zip(&self.holding).filter(|(_, holds)| **holds).map(|(floor, _)| floor)
+    /// Where an arch may stand: on the base, on a floor that holds, on the bed joints beside a tie.
+    fn feet(&self, tops: &[FloorOf]) -> Vec<f64> {
+        let beside = |z: f64| {
+            let below = self.wall.levels.iter().copied().rfind(|joint| *joint <= z + LEVEL);
+            let above = self.wall.levels.iter().copied().find(|joint| *joint >= z - LEVEL);
+            [below, above]
+        };
+        let mut feet = vec![0.0];
+        feet.extend(tops.iter().filter(|top| top.given).map(|top| top.floor.level));
+        feet.extend(tops.iter().filter(|top| !top.given).flat_map(|top| beside(top.floor.level)).flatten());
+        feet.sort_by(f64::total_cmp);
+        feet.dedup_by(|a, b| (*a - *b).abs() < LEVEL);
+        feet
     }
 
     /// The arch between two levels, the upper one held by `upper`; none where no bed joint lies between them.
-    fn storey(&self, levels: [f64; 2], upper: &FloorOf) -> Option<Storey> {
+    fn storey(&self, levels: [f64; 2], upper: &FloorOf, yields: &Yielding) -> Option<Storey> {
         let wall = self.wall;
         let t = wall.masonry.thickness;
         let [low, high] = levels;
         let top = self.wall.masonry.above(high);
-        let above: Vec<&Floor> = self.floors.iter().filter(|f| f.level >= high - LEVEL).collect();
+        let above: Vec<&Floor> = wall.floors.iter().map(|f| &f.floor).filter(|f| f.level >= high - LEVEL).collect();
         let load = top.weight + above.iter().map(|f| f.load).sum::<f64>();
         let moment = top.weight * 0.5 * t + above.iter().map(|f| f.load * f.depth).sum::<f64>();
         let depth = match (upper.clamps, load > 0.0) {
@@ -649,25 +659,22 @@ impl Making<'_> {
         let last = self.levels(0.0).filter(|z| *z < high - LEVEL).last().unwrap_or(low);
         let within = |f: &&Floor, from: f64, to: f64| f.level > from + LEVEL && f.level <= to && f.level < high - LEVEL;
         let forces = |from: f64, to: f64| {
-            let inside = self.floors.iter().filter(|f| within(f, from, to));
+            let inside = yields.floors.iter().filter(|f| within(f, from, to));
             let of = |f: &Floor| {
-                // A floor that holds and is passed holds with what is known to bear it.
-                let own = self.holding_floors().find(|own| own.floor.level == f.level);
-                let borne = own.and_then(|own| wall.borne(own)).unwrap_or(f.connection + f.friction * f.load);
-                [f.thrust, -borne].map(|force| Thrust { force, depth: f.depth, height: f.level - low })
+                let holds = f.connection + f.friction * f.load;
+                [f.thrust, -holds].map(|force| Thrust { force, depth: f.depth, height: f.level - low })
             };
-            let taken = |tie: &&Tie| self.holding_floors().any(|own| wall.is_beside(tie, own.floor.level));
-            let ties = wall.ties.iter().filter(|t| t.level > from + LEVEL && t.level <= to && t.level < last - LEVEL);
-            let ties = ties.filter(|tie| !taken(tie));
+            let ties = yields.ties.iter();
+            let ties = ties.filter(|t| t.level > from + LEVEL && t.level <= to && t.level < last - LEVEL);
             let ties = ties.map(|tie| Thrust { force: -tie.force, depth: 0.0, height: tie.level - low });
             inside.flat_map(of).chain(ties).filter(|force| force.force != 0.0).collect::<Vec<_>>()
         };
         let arch = |hinge: f64| {
             let part = |from: f64, to: f64| {
-                let own = self.wall.masonry.between(from, to);
+                let own = yields.masonry.between(from, to);
                 let height = own.centroid[1] - low;
                 let mut all = vec![Weight { carried: own.weight, pushing: 0.0, depth: 0.5 * t, height }];
-                let inside = self.floors.iter().filter(|f| within(f, from, to));
+                let inside = yields.floors.iter().filter(|f| within(f, from, to));
                 all.extend(inside.map(|f| Weight {
                     carried: f.load,
                     pushing: f.pushing,
@@ -712,21 +719,35 @@ impl Making<'_> {
             needed,
             borne: wall.borne(upper),
             rubs: wall.friction * (load + course),
+            holds: upper.holds,
+            notes: Vec::new(),
         })
     }
 
-    fn found(&self, storey: Storey) -> Found {
-        let Storey { levels, ref arch, hinge, setback, needed, borne, rubs } = storey;
-        let mut notes = Vec::new();
+    /// Arches among all else: one whose top has less than it needs is a bound still, and counts where nothing lies below it.
+    fn told(&self, arches: Vec<Storey>, survey: &Survey) -> Vec<Found> {
+        let others = survey.found.iter().filter(|f| f.counts).map(Found::multiplier);
+        let sure = arches.iter().filter(|s| !s.gives_way()).map(|s| s.arch.multiplier());
+        let least = others.chain(sure).fold(f64::INFINITY, f64::min);
+        let of = |storey: Storey| {
+            let counts = !storey.gives_way() || storey.arch.multiplier() < least;
+            (counts || storey.holds).then(|| self.found(storey, counts))
+        };
+        arches.into_iter().filter_map(of).collect()
+    }
+
+    fn found(&self, storey: Storey, counts: bool) -> Found {
+        let Storey { levels, arch, hinge, setback, needed, borne, rubs, mut notes, .. } = storey;
         match borne {
             None => notes.push(format!(
                 "the top needs R = {:.2} kN: assumed to be borne, for `holds` says so; give connection or anchors to check it",
                 1e-3 * needed
             )),
             Some(borne) if needed > borne => notes.push(format!(
-                "the top needs R = {:.2} kN and has {:.2} kN: it gives way first, and the wall overturns below it; for comparison",
+                "the top needs R = {:.2} kN and has {:.2} kN: it gives way first, {}",
                 1e-3 * needed,
-                1e-3 * borne
+                1e-3 * borne,
+                if counts { "and α0 is too high" } else { "and the wall overturns below it; for comparison" }
             )),
             Some(_) => {}
         }
@@ -739,8 +760,7 @@ impl Making<'_> {
         if self.wall.leaf.is_some() {
             notes.push("its leaves are not tied: α0 of a wall in one piece, which is too high".into());
         }
-        let counts = storey.gives_way().is_none();
-        let pushover = Pushover::of(Kinematics::VerticalArch(arch.clone()));
+        let pushover = Pushover::of(Kinematics::VerticalArch(arch));
         if pushover.multiplier <= 0.0 {
             notes.push(FALLS.into());
         }
@@ -854,7 +874,7 @@ impl Making<'_> {
             let from = |y: f64| if left { y - wall.extent[0] } else { wall.extent[1] - y };
             let ties: Vec<Tie> = wall.ties.iter().map(|t| Tie { position: from(t.position), ..*t }).collect();
             let beside = Beside { floors: &self.floors, ties: &ties, length: wall.length() };
-            for hinge in self.levels(self.held()) {
+            for hinge in self.levels(self.held) {
                 let found = corner.least(hinge, &beside);
                 if !found.multiplier.is_finite() {
                     // Blocks of a single course do not overlap: no crack climbs them.
@@ -894,7 +914,7 @@ impl Making<'_> {
         let bonded = |end: f64| wall.side_walls.iter().any(|s| (s.at - end).abs() <= s.wall.thickness + LEVEL);
         let ends = wall.extent.map(|end| (end, bonded(end)));
         let before = survey.found.len();
-        for foot in self.levels(self.held()) {
+        for foot in self.levels(self.held) {
             let height = wall.top - foot;
             let mut best: Option<(f64, Flap, Body)> = None;
             let mut free = f64::INFINITY;

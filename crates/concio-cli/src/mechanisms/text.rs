@@ -74,8 +74,8 @@ fn table(chosen: &[&Found], checked: bool) -> Vec<Vec<String>> {
         let mark = if found.counts { "" } else { " (for comparison)" };
         let slopes = match found.slopes[..] {
             [] => "–".into(),
-            ref own if own.iter().all(|s| *s == own[0]) => fixed(own[0], 3),
-            ref own => own.iter().map(|s| fixed(*s, 3)).collect::<Vec<_>>().join(" "),
+            ref own if own.iter().all(|s| *s == own[0]) => slope(own[0]),
+            ref own => own.iter().map(|s| slope(*s)).collect::<Vec<_>>().join(" "),
         };
         let mut line = vec![
             format!("{} ({}){mark}", found.kind.what(), found.kind.equation()),
@@ -97,6 +97,14 @@ fn table(chosen: &[&Found], checked: bool) -> Vec<Vec<String>> {
     }
     lines
 }
+
+/// tan β or tan ϑ in words: a level hinge has none.
+pub(super) fn slope(value: f64) -> String {
+    if value > LEVEL_HINGE { "90°".into() } else { fixed(value, 3) }
+}
+
+/// tan ϑ above which a hinge is level: what rounding leaves of that of 90°.
+const LEVEL_HINGE: f64 = 1e9;
 
 fn ratio(check: Result<f64, Missing>) -> String {
     let short = |why: Missing| -> &dyn Display {

@@ -275,6 +275,17 @@ fn the_guide_shakes_its_wall_by_records() {
     }
 }
 
+/// Flaps whose thrust makes the level hinge the least: its angle is told, not what rounding leaves of tan 90°.
+#[test]
+fn a_level_hinge_of_flaps_is_one_of_90_degrees() {
+    let desk = Desk::new();
+    let gable = "height = 2.2\nbase = 3.48\nthickness = 0.245\nridge_load = 1705\ncrack_thrust = 1956";
+    desk.put("wall.toml", wall(&format!("[out_of_plane.gable]\n{gable}")));
+    let told = text(&desk, "mechanisms wall.toml");
+    let line = told.lines().find(|l| l.contains("flaps of the gable")).expect("flaps");
+    assert!(line.contains("90°"), "{line}");
+}
+
 /// The gable end of the examples has every kind of mechanism that the façade lacks, and its strength sets them back.
 #[test]
 fn the_gable_end_of_the_examples() {

@@ -353,3 +353,26 @@ fn a_corner_falls_towards_the_weaker_wall_alike() {
     let mirrored = Corner { direction: FRAC_PI_2 - PI / 5.0, ..of([thick, wall]) };
     near(one.multiplier, mirrored.with_slopes(0.0, [0.5, 0.3], &Beside::default()).multiplier, 1e-12);
 }
+
+/// The least flap of this gable has its hinge on the bound of its slope and its foot on the base: the wall's corner below the ridge.
+#[test]
+fn flaps_of_a_gable_reach_the_bounds_of_their_search() {
+    let (height, half, thickness, gamma, load) = (2.85, 2.37, 0.287, 17789.0, 12448.0);
+    let gable = Gable {
+        base: 2.0 * half,
+        height,
+        thickness,
+        specific_weight: gamma,
+        load,
+        depth: 0.5 * thickness,
+        pushing: 0.0,
+        thrust: 0.0,
+    };
+    let found = gable.least_flaps(1.0, 0.0);
+    // The hinge at 45° from the middle of the base meets the slope at h b/(h + b): a triangle beside the crack, its centroid at a third.
+    let weight = gamma * thickness * 0.5 * height * height * half / (height + half);
+    let expected = 0.5 * thickness * (weight + 0.5 * load) / (height * (weight / 3.0 + 0.5 * load));
+    let against = "the triangle over a hinge at 45°";
+    agrees!("Mechanisms: flap of a gable on its bounds", against, "", found.multiplier, expected, 1e-8);
+    assert!(found.flap.crack[0][1].abs() < 1e-9, "{:?}", found.flap.crack);
+}

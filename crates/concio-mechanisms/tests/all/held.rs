@@ -189,9 +189,10 @@ fn side_walls_take_their_loads_along() {
     let both = of(0.5, "", &(side(0.2) + &side(5.8)));
     let found = at_hinge(&both, Kind::WithSideWalls, 0.0);
     let of_slope = |slope: f64| {
-        let (n, wedge, load) = (24.0, 0.5 * 20e3 * 0.4 * 36.0 * slope, 30e3 * 6.0 * slope);
-        let rubs =
-            0.5 * n * (n + 1.0) * 0.6 * 20e3 * 0.4 * 0.2 * 0.25 * 2.0 * (n - 1.0) / n + n * 0.6 * 30e3 * 0.2 * 3.0;
+        let (wedge, load) = (0.5 * 20e3 * 0.4 * 36.0 * slope, 30e3 * 6.0 * slope);
+        // Course by course from the top: μ l (γ t_s h_b k + q) on the bed joint below the k-th.
+        let on_joint = |k: f64| 0.6 * 0.2 * (20e3 * 0.4 * 0.25 * k + 30e3) * (6.0 - 0.25 * k);
+        let rubs: f64 = (1..=24).map(|k| on_joint(f64::from(k))).sum();
         let kept = 1.0 - slope / 0.8;
         let rights = 360e3 * 0.25 + 2.0 * (wedge * (0.5 + 2.0 * slope) + load * (0.5 + 3.0 * slope) + kept * rubs);
         rights / (360e3 * 3.0 + 2.0 * (wedge * 4.0 + load * 6.0))
@@ -298,4 +299,78 @@ fn ties_of_flaps_count_with_what_they_come_to() {
     agrees!(what, "the flap without it", "", flap("stiffness = 20e6\nslack = 5"), bare, 1e-12);
     let soft = flap("stiffness = 20");
     assert!(soft >= bare && soft < bare + 1e-3, "{soft} {bare}");
+}
+
+/// A wall 1.5 m long in courses of 0.25 m, γ = 20 kN/m³.
+fn narrow(courses: u32, thickness: f64, friction: f64, behind: &str) -> Survey {
+    let text = format!(
+        "model = \"planar\"\n[[panel]]\nbond = \"running\"\ncourses = {courses}\nbricks = 3\n\
+         brick = {{ length = 0.5, height = 0.25, thickness = {thickness}, specific_weight = 20e3 }}\n\
+         [joint]\nbed = {{ law = \"rigid\" }}\nhead = {{ law = \"rigid\" }}\n\
+         friction = {{ law = \"coulomb\", static = {friction} }}\n[out_of_plane]\n{behind}\n[motion]\nduration = 1\n"
+    );
+    let file = from_str(&text, Syntax::Toml, None).unwrap_or_else(|e| panic!("{e}"));
+    let wall = concio::facade::of(&file.case).unwrap_or_else(|e| panic!("{e}"));
+    survey(&wall, Overlaps::Summed)
+}
+
+/// The lower floor carries the foot of the upper arch and the top of the lower one: both give way, and the wall overturns.
+#[test]
+fn two_floors_of_known_force_give_way_together() {
+    let keys = |load: f64, at: f64| format!("load = {load:?}\nat = {at:?}\nholds = true\nconnection = 3e3");
+    let survey = narrow(16, 0.25, 0.8, &(floor(2.0, &keys(13e3, 0.15)) + &floor(4.0, &keys(17e3, 0.2))));
+    // (OP3) about the base: W 30, P 19.5 and 25.5, connections of 4.5 kN each.
+    let resists = 30e3 * 0.125 + 19.5e3 * 0.15 + 25.5e3 * 0.2 + 4.5e3 * (2.0 + 4.0);
+    let expected = resists / (30e3 * 2.0 + 19.5e3 * 2.0 + 25.5e3 * 4.0);
+    let found = survey.least().expect("a mechanism");
+    assert!(found.kind == Kind::Overturning && found.hinge == 0.0, "{:?} at {}", found.kind, found.hinge);
+    let (against, what) = ("(OP3) by hand", "Mechanisms: two floors of 3 kN/m that give way together");
+    agrees!(what, against, "", found.multiplier(), expected, 1e-12);
+    for told in ["the floor at 2.00 m gives way at 4.50 kN", "the floor at 4.00 m gives way at 4.50 kN"] {
+        assert!(found.notes.iter().any(|n| n == told), "{:?}", found.notes);
+    }
+}
+
+/// (OP6) of the upper storey counts though the lower floor could not bear the top of a storey at its own, higher α0.
+#[test]
+fn the_arch_of_a_storey_stays_where_that_below_needs_more() {
+    let held = |load: f64| format!("load = {load:?}\nat = 0.15\nholds = true");
+    let survey = narrow(17, 0.3, 0.6, &(floor(1.0, &held(4e3)) + &floor(4.25, &held(8e3))));
+    let found = survey.least().expect("a mechanism");
+    // W 29.25 over 3.25 m, N 12 kN in the middle.
+    let n = 12.0 / 29.25;
+    let at = |x: f64| 2.0 * 0.3 / 3.25 * (1.0 + n * (1.0 + 0.5 * x / (1.0 - x))) / x;
+    let expected = (1..13).map(|i| at(f64::from(i) / 13.0)).fold(f64::INFINITY, f64::min);
+    let (against, what) = ("(OP6) on the bed joints", "Mechanisms: arch of the upper of two storeys");
+    agrees!(what, against, "", found.multiplier(), expected, 1e-12);
+    assert!(found.kind == Kind::VerticalArch && found.level > 1.0);
+}
+
+/// A storey may stand on a tied level: foot 1.5, hinge 3.25, top 3.75 m, with what is tied at the foot at rest.
+#[test]
+fn an_arch_may_stand_on_a_tied_level() {
+    let behind = floor(1.5, "load = 9249.0\nat = 0.098\nconnection = 4917.0")
+        + &floor(3.75, "load = 2085.0\nat = 0.134\nconnection = 4628.0")
+        + &tie(1.34, "yield_force = 8692.0").replace("x = 3", "x = 0.75")
+        + &tie(1.5, "yield_force = 2613.0").replace("x = 3", "x = 0.75");
+    let survey = narrow(15, 0.31, 0.9, &behind);
+    let found = survey.least().expect("a mechanism");
+    // Over 2.25 m: W 20 · 0.31 · 1.5 · 2.25, N 3.1275 kN at 0.134 m from the outer face.
+    let (weight, load, part) = (20.0 * 0.31 * 1.5 * 2.25, 2.085 * 1.5, 1.75 / 2.25);
+    let expected = 2.0 / 2.25 / part * (0.31 + load / weight * (0.31 + (0.31 - 0.134) * part / (1.0 - part)));
+    let (against, what) = ("(OP6) by hand", "Mechanisms: arch on a tied level");
+    agrees!(what, against, "", found.multiplier(), expected, 1e-12);
+    assert!(found.kind == Kind::VerticalArch && (found.hinge - 3.25).abs() < 1e-9, "{:?}", found.shape);
+}
+
+/// A floor that holds without a force stays where its course slides: that and what lies on it push nothing.
+#[test]
+fn a_course_that_slides_stays_with_its_floor() {
+    let survey = of(0.5, "", &floor(6.0, "load = 1e3\nat = 0.2\nholds = true"));
+    let found = counted(&survey, Kind::Overturning).expect("a mechanism");
+    // W 345 kN over 5.75 m below the course of 15 kN; μ (15 + 6) kN at 6 m.
+    let expected = (360e3 * 0.25 + 6e3 * 0.2 + 0.6 * 21e3 * 6.0) / (345e3 * 2.875);
+    let (against, what) = ("virtual work by hand", "Mechanisms: a held course that slides");
+    agrees!(what, against, "", found.multiplier(), expected, 1e-12);
+    assert!(found.notes.iter().any(|n| n.contains("stays, and its course slides at 12.60 kN")), "{:?}", found.notes);
 }

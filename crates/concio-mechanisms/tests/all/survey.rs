@@ -101,7 +101,8 @@ fn leaves_gable_and_strip_have_their_own_mechanisms() {
     let expected = 8.0 * 2e4 * 0.45 / (weight * 36.0) + 0.4 * (1.0 + pressed / weight);
     assert!((strip.multiplier() - expected).abs() < 1e-9, "{} instead of {expected}", strip.multiplier());
     let arches: Vec<_> = survey.found.iter().filter(|f| f.kind == Kind::VerticalArch).collect();
-    assert_eq!(arches.len(), 2);
+    // Joints of this file do not rub: the course of the lower floor slides, and both storeys bend as one too.
+    assert_eq!(arches.len(), 3);
 }
 
 fn least(survey: &Survey, kind: Kind) -> &concio_mechanisms::survey::Found {

@@ -1,0 +1,179 @@
+//! What gives way where a wall is held, at a trial multiplier.
+//!
+//! A floor that holds the wall gives way in one of two manners. Its connection, its seat and ties come to their full force, as in (OP3), and
+//! the wall pushes with all that the floor weighs. Or the bed joints below and above the course that it holds slide: course and floor stay
+//! in their place and push nothing. Per outward displacement of the wall at the floor they take from (OP1)
+//!
+//! Σ (T + F + μ_f P − H) − α Σ (P + Q), μ (N_below + N_above).
+//!
+//! The course turns with the wall about the level of its floor, and rises with it. Both are mechanisms, and α0 of each bounds that of the wall from above. For a trial α the lower one counts and α follows, which falls until
+//! it settles (Dinkelbach, as in [`crate::overturning`]). A floor without a known force has the second manner alone.
+
+use crate::facade::{Floor, Masonry, Piece, Tie};
+use crate::wall::Wall;
+
+/// Heights within this are one level [m].
+const LEVEL: f64 = 1e-6;
+/// Trials; they settle in a few.
+const TRIALS: usize = 12;
+
+/// A course that floors hold.
+#[derive(Debug, Clone)]
+struct Held {
+    /// Level of the floor [m].
+    level: f64,
+    /// Bottom and top of the course [m].
+    course: [f64; 2],
+    /// Floors and ties on it, by their numbers.
+    floors: Vec<usize>,
+    ties: Vec<usize>,
+    /// Force at which connection, seat and ties give way [N]; none where nothing says.
+    borne: Option<f64>,
+    /// Friction of both bed joints [N].
+    rubs: f64,
+    /// Weight of the course [N].
+    weight: f64,
+}
+
+/// The supports of a wall.
+#[derive(Debug, Clone)]
+pub(crate) struct Supports<'w> {
+    wall: &'w Wall,
+    held: Vec<Held>,
+}
+
+/// What acts on the wall at a trial α.
+#[derive(Debug, Clone)]
+pub(crate) struct Yielding {
+    /// Masonry without courses that stay.
+    pub(crate) masonry: Masonry,
+    /// Floors; one whose course stays carries that, and has the friction of its joints as its connection.
+    pub(crate) floors: Vec<Floor>,
+    /// Ties, without those on courses that stay.
+    pub(crate) ties: Vec<Tie>,
+    /// Level [m] of each floor that holds, its force [N], and whether its course stays.
+    pub(crate) forces: Vec<(f64, f64, bool)>,
+}
+
+impl<'w> Supports<'w> {
+    pub(crate) fn of(wall: &'w Wall) -> Supports<'w> {
+        let mut held: Vec<Held> = Vec::new();
+        for own in wall.floors.iter().filter(|f| f.holds) {
+            let level = own.floor.level;
+            let low = wall.levels.iter().copied().rfind(|z| *z < level - LEVEL).unwrap_or(0.0);
+            let high = wall.levels.iter().copied().find(|z| *z >= level - LEVEL).unwrap_or(wall.top.max(level));
+            if held.iter().any(|h| (h.course[0] - low).abs() < LEVEL) {
+                continue;
+            }
+            let on_it = |z: f64| z > low + LEVEL && z <= high + LEVEL;
+            let numbers = |levels: Vec<f64>| (0..levels.len()).filter(|i| on_it(levels[*i])).collect::<Vec<_>>();
+            let floors = numbers(wall.floors.iter().map(|f| f.floor.level).collect());
+            let ties = numbers(wall.ties.iter().map(|t| t.level).collect());
+            let holding = || floors.iter().map(|i| &wall.floors[*i]).filter(|f| f.holds);
+            let borne = holding().map(|f| wall.borne(f)).collect::<Option<Vec<f64>>>().map(|all| all.iter().sum());
+            let load =
+                |from: f64| wall.floors.iter().filter(|f| f.floor.level > from).map(|f| f.floor.load).sum::<f64>();
+            let below = wall.masonry.above(low).weight + load(low + LEVEL);
+            let above = wall.masonry.above(high).weight + load(high + LEVEL);
+            let (rubs, weight) = (wall.friction * (below + above), wall.masonry.between(low, high).weight);
+            held.push(Held { level, course: [low, high], floors, ties, borne, rubs, weight });
+        }
+        Supports { wall, held }
+    }
+
+    /// Levels [m] of floors that hold whatever pushes, as long as their courses do not slide.
+    pub(crate) fn rigid(&self) -> impl Iterator<Item = f64> {
+        self.held.iter().filter(|h| h.borne.is_none()).map(|h| h.level)
+    }
+
+    /// Whether nothing can turn about a joint, for a floor that holds whatever pushes has the course on it.
+    pub(crate) fn blocks(&self, joint: f64) -> bool {
+        let on_joint = |h: &Held| h.course[0] <= joint + LEVEL && joint < h.level - LEVEL;
+        self.held.iter().any(|h| h.borne.is_none() && on_joint(h))
+    }
+
+    /// What acts at a trial α on what moves between two levels [m].
+    pub(crate) fn at(&self, alpha: f64, between: [f64; 2]) -> Yielding {
+        let wall = self.wall;
+        let floors = wall.floors.iter().map(|f| f.floor).collect();
+        let mut found = Yielding { masonry: wall.masonry.clone(), floors, ties: Vec::new(), forces: Vec::new() };
+        let mut gone = Vec::new();
+        let inside = |h: &&Held| h.level > between[0] + LEVEL && h.level < between[1] - LEVEL;
+        for held in self.held.iter().filter(inside) {
+            // A course on the hinge turns, or nothing does.
+            let free = held.course[0] > between[0] + LEVEL;
+            let stays = held.borne.is_none() || free && self.gives(held, alpha) > held.rubs + alpha * held.weight;
+            found.forces.push((held.level, if stays { held.rubs } else { held.borne.unwrap_or_default() }, stays));
+            if stays {
+                held.stays(&mut found);
+                gone.extend(&held.ties);
+            }
+        }
+        found.ties = wall.ties.iter().enumerate().filter(|(i, _)| !gone.contains(i)).map(|(_, tie)| *tie).collect();
+        found
+    }
+
+    /// What a course that moves takes from (OP1) per displacement [N].
+    fn gives(&self, held: &Held, alpha: f64) -> f64 {
+        let floors = held.floors.iter().map(|i| self.wall.floors[*i].floor);
+        let of_floors: f64 =
+            floors.map(|f| f.connection + f.friction * f.load - f.thrust - alpha * (f.load + f.pushing)).sum();
+        of_floors + held.ties.iter().map(|i| self.wall.ties[*i].force).sum::<f64>()
+    }
+
+    /// The least of what is made of floors and ties between two levels [m] that give way.
+    pub(crate) fn least<T>(
+        &self,
+        between: [f64; 2],
+        make: impl Fn(&Yielding) -> Option<T>,
+        multiplier: impl Fn(&T) -> f64,
+    ) -> Option<(T, Yielding)> {
+        let first = self.at(0.0, between);
+        let mut found = (make(&first)?, first);
+        for _ in 0..TRIALS {
+            let alpha = multiplier(&found.0);
+            let next = self.at(alpha, between);
+            let made = make(&next)?;
+            if !(multiplier(&made) < alpha - 1e-13 * alpha.abs()) {
+                break;
+            }
+            found = (made, next);
+        }
+        Some(found)
+    }
+}
+
+impl Held {
+    /// The course stays: what lies on it rises with the wall, and does not go out.
+    fn stays(&self, found: &mut Yielding) {
+        let [low, high] = self.course;
+        let in_it = |p: &Piece| Piece { z: [p.z[0].max(low), p.z[1].min(high)], weight: -p.weight, ..*p };
+        let taken: Vec<Piece> = found.masonry.pieces.iter().map(in_it).filter(|p| p.z[1] > p.z[0]).collect();
+        found.masonry.pieces.extend(taken);
+        for (k, i) in self.floors.iter().enumerate() {
+            let own = &mut found.floors[*i];
+            let (weight, rubs) = if k == 0 { (self.weight, self.rubs) } else { (0.0, 0.0) };
+            let load = own.load + weight;
+            let moment = own.load * own.depth + weight * 0.5 * found.masonry.thickness;
+            let depth = if load > 0.0 { moment / load } else { own.depth };
+            *own = stands(&Floor { load, depth, ..*own }, rubs);
+        }
+    }
+}
+
+/// A floor that stays on a course that rubs.
+pub(crate) fn stands(floor: &Floor, rubs: f64) -> Floor {
+    Floor { pushing: -floor.load, thrust: 0.0, friction: 0.0, connection: rubs, ..*floor }
+}
+
+impl Yielding {
+    /// What gives way between two levels [m], in words.
+    pub(crate) fn told(&self, levels: [f64; 2]) -> Vec<String> {
+        let inside = self.forces.iter().filter(|(z, ..)| *z > levels[0] + LEVEL && *z < levels[1] - LEVEL);
+        let of = |(z, force, stays): &(f64, f64, bool)| match stays {
+            false => format!("the floor at {z:.2} m gives way at {:.2} kN", 1e-3 * force),
+            true => format!("the floor at {z:.2} m stays, and its course slides at {:.2} kN", 1e-3 * force),
+        };
+        inside.map(of).collect()
+    }
+}
