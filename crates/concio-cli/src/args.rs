@@ -203,7 +203,7 @@ pub struct Record {
     #[arg(long, value_name = "UNIT")]
     pub units: Option<String>,
     /// Sample interval of a text file without a time column that names none, in seconds or with a unit (5ms).
-    #[arg(long, value_name = "TIME", value_parser = interval)]
+    #[arg(long, value_name = "TIME", value_parser = interval, allow_hyphen_values = true)]
     pub dt: Option<f64>,
     /// How the values of a text file stand.
     #[arg(long, value_enum)]
@@ -302,10 +302,10 @@ pub struct Plot {
     pub out: Option<PathBuf>,
     /// Instant of deformed and acceleration, such as "1.25 s", or peak: that of the largest displacement, of
     /// acceleration that of the largest relative acceleration.
-    #[arg(long, value_name = "TIME", value_parser = instant, default_value = "peak", requires = "figure")]
+    #[arg(long, value_name = "TIME", value_parser = instant, default_value = "peak", requires = "figure", allow_hyphen_values = true)]
     pub at: Instant,
     /// How many times larger displacements are drawn; default a round number that shows them.
-    #[arg(long, value_name = "FACTOR", value_parser = positive, requires = "figure")]
+    #[arg(long, value_name = "FACTOR", value_parser = positive, requires = "figure", allow_negative_numbers = true)]
     pub scale: Option<f64>,
     /// Blocks of phase, by name, with commas between them; default those that moved most.
     #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "figure")]
@@ -314,16 +314,16 @@ pub struct Plot {
     #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "figure")]
     pub joints: Vec<String>,
     /// Start of the time shown, such as "2 s".
-    #[arg(long, value_name = "TIME", value_parser = time, requires = "figure")]
+    #[arg(long, value_name = "TIME", value_parser = time, requires = "figure", allow_hyphen_values = true)]
     pub from: Option<f64>,
     /// End of the time shown.
-    #[arg(long, value_name = "TIME", value_parser = time, requires = "figure")]
+    #[arg(long, value_name = "TIME", value_parser = time, requires = "figure", allow_hyphen_values = true)]
     pub to: Option<f64>,
     /// Width in print: single (85 mm), double (180 mm), or a length of 40 mm to 400 mm such as "120 mm".
-    #[arg(long, value_parser = width, default_value = "single", requires = "figure")]
+    #[arg(long, value_parser = width, default_value = "single", requires = "figure", allow_hyphen_values = true)]
     pub width: f64,
     /// Resolution of PNG [pixels per inch], 50 to 1200.
-    #[arg(long, value_name = "DPI", value_parser = clap::value_parser!(u32).range(50..=1200), default_value = "300", requires = "figure")]
+    #[arg(long, value_name = "DPI", value_parser = clap::value_parser!(u32).range(50..=1200), default_value = "300", requires = "figure", allow_negative_numbers = true)]
     pub dpi: u32,
 }
 
@@ -633,10 +633,10 @@ pub struct Constrained {
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub pairs: Vec<String>,
     /// Restitution of the rigid joints to which the file gives none, 0 to 1.
-    #[arg(long, value_name = "E", value_parser = fraction, default_value = "1")]
+    #[arg(long, value_name = "E", value_parser = fraction, default_value = "1", allow_negative_numbers = true)]
     pub restitution: f64,
     /// Rigidities of no-tension springs to run besides, above 0, with commas between them.
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = positive)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = positive, allow_hyphen_values = true)]
     pub rigidity: Vec<f64>,
     /// Format of the figures.
     #[arg(long, value_enum, default_value = "svg")]
@@ -660,7 +660,7 @@ pub struct Scale {
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
     /// Λ, above 0, with its unit.
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", value_parser = length, allow_hyphen_values = true)]
     pub length: Option<Length>,
     /// Print JSON.
     #[arg(long)]
@@ -688,25 +688,25 @@ pub struct FirstCrack {
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
     /// Accelerograms, with commas between them; without them the wall's own motion.
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_hint = ValueHint::FilePath, allow_hyphen_values = true)]
     pub records: Vec<PathBuf>,
     /// What counts as a crack.
     #[arg(long, value_enum, default_value = "bond")]
     pub criterion: CrackCriterion,
     /// Limit of opening or slip, such as 0.3mm; default 0.1mm, from which cracks are seen.
-    #[arg(long, value_name = "LENGTH", value_parser = limit)]
+    #[arg(long, value_name = "LENGTH", value_parser = limit, allow_hyphen_values = true)]
     pub limit: Option<f64>,
     /// Largest relative distance of the two scales around the crack, 1e-5 to 1.
-    #[arg(long, value_name = "PART", default_value_t = 0.01, value_parser = positive)]
+    #[arg(long, value_name = "PART", default_value_t = 0.01, value_parser = positive, allow_negative_numbers = true)]
     pub interval: f64,
     /// Lower scales that are tried besides, 0 to 100.
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(long, value_name = "N", default_value_t = 3, allow_negative_numbers = true)]
     pub checks: usize,
     /// Periods of the spectral accelerations, with commas between them; default 0.1s,0.2s,0.5s.
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = time)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = time, allow_hyphen_values = true)]
     pub periods: Vec<f64>,
     /// Threads; default one per core.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
     /// Folder of the results; default concio-first-crack/NAME for NAME.toml.
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
@@ -763,7 +763,7 @@ pub struct Limit {
     #[arg(long)]
     pub out_of_plane: bool,
     /// Hold what is below this height, such as 1.2m, and push the rest: for parts, and where all slides at λ = μ.
-    #[arg(long, value_name = "LENGTH", value_parser = metres, requires = "out_of_plane")]
+    #[arg(long, value_name = "LENGTH", value_parser = metres, requires = "out_of_plane", allow_hyphen_values = true)]
     pub above: Option<f64>,
     /// Draw contact points in so that bed joints twist no stronger than even pressure does; λ comes out too low.
     #[arg(long, requires = "out_of_plane")]
@@ -810,7 +810,7 @@ pub struct Mechanisms {
     #[arg(long, value_enum, default_value = "summed")]
     pub overlaps: OverlapSum,
     /// Ends of the plateau of a trilinear curve as parts of d0, such as 0.1,0.4: joints that are not sharp bear no more than that.
-    #[arg(long, value_name = "D1,D2", value_parser = plateau)]
+    #[arg(long, value_name = "D1,D2", value_parser = plateau, allow_hyphen_values = true)]
     pub trilinear: Option<[f64; 2]>,
     /// Print JSON (SI units).
     #[arg(long)]
@@ -834,10 +834,10 @@ pub struct TimeHistory {
     #[arg(long, group = "shaken-by")]
     pub shaken: bool,
     /// Factor on the motion, above 0; on the vertical one too.
-    #[arg(long, value_name = "FACTOR", value_parser = positive, requires = "shaken-by")]
+    #[arg(long, value_name = "FACTOR", value_parser = positive, requires = "shaken-by", allow_negative_numbers = true)]
     pub scale: Option<f64>,
     /// Scale the record to this peak acceleration, such as "0.3 g"; the vertical one by the same factor.
-    #[arg(long, value_name = "ACCELERATION", value_parser = peak_acceleration, requires = "record", conflicts_with = "scale")]
+    #[arg(long, value_name = "ACCELERATION", value_parser = peak_acceleration, requires = "record", conflicts_with = "scale", allow_hyphen_values = true)]
     pub pga: Option<f64>,
     /// File of the vertical record; it may be that of the record. Without it nothing moves up and down.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "record")]
@@ -851,14 +851,14 @@ pub struct TimeHistory {
     /// Unit of text files that name none.
     #[arg(long, value_name = "UNIT", requires = "record")]
     pub units: Option<String>,
-    /// Sample interval of text files that name none, such as 5ms.
-    #[arg(long, value_name = "TIME", value_parser = interval, requires = "record")]
+    /// Sample interval of text files that name none, in seconds or with a unit (5ms).
+    #[arg(long, value_name = "TIME", value_parser = interval, requires = "record", allow_hyphen_values = true)]
     pub dt: Option<f64>,
     /// How the values of text files stand.
     #[arg(long, value_enum, requires = "record")]
     pub layout: Option<Layout>,
     /// Velocity after an impact over that before, 0 to 1; default by formula. It is chosen, not known: try others.
-    #[arg(long, value_name = "E", value_parser = part, requires = "shaken-by")]
+    #[arg(long, value_name = "E", value_parser = part, requires = "shaken-by", allow_negative_numbers = true)]
     pub restitution: Option<f64>,
 }
 
@@ -933,13 +933,13 @@ pub struct Continuum {
     #[arg(long)]
     pub repeated: bool,
     /// Young's modulus of bricks that deform, such as 10GPa; default rigid bricks.
-    #[arg(long, value_name = "STRESS", value_parser = modulus)]
+    #[arg(long, value_name = "STRESS", value_parser = modulus, allow_hyphen_values = true)]
     pub brick_modulus: Option<f64>,
     /// Their Poisson's ratio, above -1 to 0.5.
     #[arg(long, value_name = "NU", default_value_t = 0.2, requires = "brick_modulus", allow_negative_numbers = true)]
     pub brick_poisson: f64,
     /// Pressure on bed joints at which strength is told, such as 0.3MPa; default that of load and weight at half of the height.
-    #[arg(long, value_name = "STRESS", value_parser = pressure)]
+    #[arg(long, value_name = "STRESS", value_parser = pressure, allow_hyphen_values = true)]
     pub pressure: Option<f64>,
     /// Print the card of a panel.
     #[arg(long, value_enum, value_name = "FORMAT", conflicts_with = "json")]
@@ -1046,10 +1046,10 @@ pub struct StudyRun {
     #[command(flatten)]
     pub place: StudyPlace,
     /// Threads; default one per core.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
     /// Do the I-th of N shares of the runs, I from 1 to N.
-    #[arg(long, value_name = "I/N", value_parser = shard)]
+    #[arg(long, value_name = "I/N", value_parser = shard, allow_hyphen_values = true)]
     pub shard: Option<[usize; 2]>,
 }
 
@@ -1071,7 +1071,7 @@ pub struct StudyPlan {
     #[arg(long)]
     pub json: bool,
     /// Runs in a task at most.
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=4096))]
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=4096), allow_negative_numbers = true)]
     pub runs: u16,
 }
 
@@ -1089,7 +1089,7 @@ pub struct StudyWork {
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
     /// Threads; default one per core.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
 }
 

@@ -20,14 +20,16 @@ use crate::{ContinuumError, Strength};
 const LARGEST: usize = 20_000;
 /// Elements a side of the continuum's panel.
 const ELEMENTS: usize = 32;
-/// Directions in which the program looks for planes; fewer where a cell has many bricks.
-const DIRECTIONS: usize = 300;
-const FEW_DIRECTIONS: usize = 60;
+/// Programs that may be spent on the search for planes; fewer where a cell has many bricks.
+const PROGRAMS: usize = 1000;
+const FEW_PROGRAMS: usize = 300;
 const SMALL_CELL: usize = 12;
 /// E of what masonry is built of is less [Pa]: bricks have 5 to 30 GPa, granite and basalt up to some 70 GPa.
 const STIFFEST: f64 = 70e9;
 /// E of the softest adobe [Pa]; most have 0.1 to 1 GPa, bricks more.
 const SOFTEST: f64 = 50e6;
+/// Pressure that no wall is under [Pa]: the best masonry crushes at 50 MPa, and is loaded with some MPa.
+const MOST_PRESSED: f64 = 50e6;
 /// 2 (1 − ν)/(1 − 2ν) of a thin layer that bricks hold, ν = 0.2; and E/G, Concio's default.
 const HELD_LAYER: f64 = 8.0 / 3.0;
 const FREE_LAYER: f64 = 2.4;
@@ -146,6 +148,7 @@ pub fn analyse(case: &Case, panel: usize, options: Options) -> Result<Found, Con
     let given = &case.panels[panel];
     let mut assumed = assumed(&texture, panel, options);
     let mut warnings: Vec<String> = options.brick.and_then(|[modulus, _]| odd_brick(modulus)).into_iter().collect();
+    warnings.extend(options.pressure.and_then(odd_pressure));
     let own: Vec<&concio::wall::Block> = texture.wall.blocks.iter().filter(|b| b.panel == panel).collect();
     let ends = |axis: fn(&concio::wall::Block) -> [f64; 2]| {
         own.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |e, b| [e[0].min(axis(b)[0]), e[1].max(axis(b)[1])])
@@ -269,6 +272,15 @@ pub fn analyse(case: &Case, panel: usize, options: Options) -> Result<Found, Con
         scale,
         assumed,
         warnings,
+    })
+}
+
+/// Says of a pressure that was asked for [Pa] that masonry does not bear it, mostly by its unit.
+fn odd_pressure(pressure: f64) -> Option<String> {
+    let [given, meant] = [1e-6, 1e-9].map(|unit| rounded(unit * pressure));
+    let most = 1e-6 * MOST_PRESSED;
+    (pressure > MOST_PRESSED).then(|| {
+        format!("a pressure of {given} MPa is more than walls bear, up to {most:.0} MPa: were {meant} MPa meant?")
     })
 }
 
@@ -409,8 +421,8 @@ impl Ask<'_> {
         let found = match closed {
             Some(planes) => planes,
             None => {
-                let directions = if cell.bricks.len() > SMALL_CELL { FEW_DIRECTIONS } else { DIRECTIONS };
-                match Domain::new(cell, law.bed, law.head).planes(from, directions) {
+                let programs = if cell.bricks.len() > SMALL_CELL { FEW_PROGRAMS } else { PROGRAMS };
+                match Domain::new(cell, law.bed, law.head).planes(from, programs) {
                     Err(ContinuumError::Outside) => {
                         warnings.push(format!(
                             "no strength {which}: the wall does not bear its pressure of {:.4} MPa",
@@ -418,14 +430,32 @@ impl Ask<'_> {
                         ));
                         return Ok(None);
                     }
-                    other => other?,
+                    Err(other) => return Err(other),
+                    Ok(found) => {
+                        warnings.extend(incomplete(found.excess, which, programs));
+                        found.planes
+                    }
                 }
             }
         };
-        let to = |direction: [f64; 3]| Some(cut(&found, from, direction)).filter(|v| v.is_finite());
+        // What is left of a bound that goes through this stress is rounding.
+        let rounded = |way: f64| if way < 1e-7 * self.pressure { 0.0 } else { way };
+        let to = |direction: [f64; 3]| Some(rounded(cut(&found, from, direction))).filter(|v| v.is_finite());
         let shear = [to([0.0, 0.0, 1.0]), to([0.0, 0.0, -1.0])].into_iter().flatten().reduce(f64::min);
         Ok(Some(StrengthFound { closed: is_closed, tension: to([1.0, 0.0, 0.0]), shear, planes: found }))
     }
+}
+
+/// Says of planes that were not all verified how far they go astray.
+fn incomplete(excess: f64, which: &str, programs: usize) -> Option<String> {
+    let how = match excess {
+        0.0 => return None,
+        part if part.is_finite() => format!("up to {:.2} % too far", 100.0 * part),
+        _ => "without an end in a direction where the wall may have one".into(),
+    };
+    Some(format!(
+        "strength {which}: after {programs} programs the planes still reach {how}; the domain has more of them than can be listed"
+    ))
 }
 
 fn of_windows(texture: &Texture, panel: usize, thickness: f64) -> Result<(Moduli, Windows), ContinuumError> {

@@ -20,6 +20,7 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, S
 use crate::ContinuumError;
 use crate::cell::Cell;
 use crate::joint::Strength;
+use crate::polar;
 use crate::running::RunningBond;
 
 /// A bound a·(σ11, σ22, σ12) ≤ b.
@@ -84,6 +85,41 @@ pub struct Reach {
     pub plane: Plane,
 }
 
+/// The planes of a domain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Planes {
+    /// The planes.
+    pub planes: Vec<Plane>,
+    /// 0 where all corners between them were verified: none is missing. Else they reach at most this part further than the wall
+    /// does, from a stress inside; infinite where they have no end and the wall may have one.
+    pub excess: f64,
+}
+
+/// A domain seen from a stress inside.
+struct View {
+    centre: [f64; 3],
+    /// Along each axis [Pa]; 0 where the domain is flat.
+    size: [f64; 3],
+}
+
+impl View {
+    /// The bound y·u ≤ 1 in stresses. What is below a ten-millionth is rounding.
+    fn plane(&self, y: [f64; 3], unit: f64) -> Plane {
+        let is_flat = (0..3).any(|k| self.size[k] == 0.0 && y[k] != 0.0);
+        let a: [f64; 3] = std::array::from_fn(|k| if self.size[k] > 0.0 { y[k] / self.size[k] } else { y[k] / unit });
+        let at: f64 = (0..3).map(|k| a[k] * self.centre[k]).sum();
+        let plane = Plane::scaled(a, if is_flat { at } else { 1.0 + at });
+        let clean = |v: f64, size: f64| if v.abs() < 1e-7 * size { 0.0 } else { v };
+        Plane { a: plane.a.map(|v| clean(v, 1.0)), b: clean(plane.b, unit) }
+    }
+}
+
+/// Directions in which the search begins.
+const SEEDS: usize = 26;
+/// Times that the search goes to the middle of the domain before it begins.
+const PASSES: usize = 3;
+/// How far planes may reach over the wall where they are verified.
+const VERIFIED: f64 = 1e-6;
 /// Strips of a joint that can crush.
 const STRIPS: usize = 8;
 /// What the program is solved to.
@@ -121,37 +157,94 @@ impl<'c> Domain<'c> {
         Ok(Some(Reach { multiplier, plane: Plane::scaled(a, b) }))
     }
 
-    /// The planes that bound the domain, as far as `directions` ways from a stress inside meet them: 300 or more find those of a
-    /// common bond. All of them are true bounds; that none is missing is not proved.
+    /// The planes that bound the domain, found from a stress that the wall bears.
+    ///
+    /// Each corner of the domain that the planes found so far have is asked by a program of its own whether the wall bears it; a
+    /// plane that cuts it off is one more. The search ends where all corners are borne, or after some `programs`.
     ///
     /// # Errors
     /// As [`Domain::reach`].
-    pub fn planes(&self, inside: [f64; 3], directions: usize) -> Result<Vec<Plane>, ContinuumError> {
+    pub fn planes(&self, inside: [f64; 3], programs: usize) -> Result<Planes, ContinuumError> {
         let unit = self.unit(inside);
-        let mut found: Vec<Plane> = Vec::new();
-        for direction in sphere(directions) {
-            let Some(reach) = self.reach(inside, direction)? else { continue };
-            let same = |p: &Plane| {
-                let off = (0..3).map(|i| (p.a[i] - reach.plane.a[i]).abs()).fold(0.0, f64::max);
-                off < 1e-4 && (p.b - reach.plane.b).abs() < 1e-4 * unit
-            };
-            if !found.iter().any(same) {
-                found.push(reach.plane);
-            }
+        let view = self.view(inside, unit)?;
+        let flat = (0..3)
+            .filter(|k| view.size[*k] == 0.0)
+            .flat_map(|k| [1.0, -1.0].map(|sign| std::array::from_fn(|i| if i == k { sign } else { 0.0 })));
+        let mut found: Vec<[f64; 3]> = flat.collect();
+        let (mut asked, mut excess): (Vec<([f64; 3], f64)>, f64);
+        asked = Vec::new();
+        for direction in sphere(SEEDS) {
+            let (_, y) = self.bound(&view, direction, unit)?;
+            found.push(y);
         }
-        // A way that meets an edge may bring any plane through it: those that the others imply go.
-        let mut needed: Vec<Plane> = Vec::new();
-        for direction in sphere(4 * directions) {
-            let ways = found.iter().map(|p| cut(std::slice::from_ref(p), inside, direction));
-            let first = ways.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
-            if let Some((k, _)) = first.filter(|(_, way)| way.is_finite())
-                && !needed.contains(&found[k])
-            {
-                needed.push(found[k]);
+        loop {
+            found = polar::corners(&found);
+            excess = 0.0;
+            let mut more = Vec::new();
+            for side in polar::facets(&found) {
+                let like = |d: &[f64; 3]| (0..3).all(|k| (d[k] - side.normal[k]).abs() < 1e-7);
+                let known = asked.iter().find(|(d, _)| like(d)).map(|(_, most)| *most);
+                let most = match known {
+                    Some(most) => most,
+                    None => {
+                        let (most, y) = self.bound(&view, side.normal, unit)?;
+                        asked.push((side.normal, most));
+                        if most > side.offset * (1.0 + VERIFIED) + VERIFIED {
+                            more.push(y);
+                        }
+                        most
+                    }
+                };
+                if most > side.offset * (1.0 + VERIFIED) + VERIFIED {
+                    let ends = side.offset > VERIFIED;
+                    excess = excess.max(if ends { most / side.offset - 1.0 } else { f64::INFINITY });
+                }
             }
+            if more.is_empty() || asked.len() >= programs {
+                break;
+            }
+            found.extend(more);
         }
-        needed.sort_by(|p, q| q.a.partial_cmp(&p.a).unwrap_or(std::cmp::Ordering::Equal));
-        Ok(needed)
+        let mut planes: Vec<Plane> = found.iter().map(|y| view.plane(*y, unit)).collect();
+        planes.sort_by(|p, q| q.a.partial_cmp(&p.a).unwrap_or(std::cmp::Ordering::Equal));
+        Ok(Planes { planes, excess })
+    }
+
+    /// A stress well inside the domain, and how far the domain goes from there along each axis, at most one `unit`.
+    fn view(&self, inside: [f64; 3], unit: f64) -> Result<View, ContinuumError> {
+        let mut view = View { centre: inside, size: [0.0; 3] };
+        for _ in 0..PASSES {
+            let mut ends = [[0.0; 2]; 3];
+            for (k, pair) in ends.iter_mut().enumerate() {
+                for (end, sign) in pair.iter_mut().zip([1.0, -1.0]) {
+                    let way = std::array::from_fn(|i| if i == k { sign } else { 0.0 });
+                    *end = self.reach(view.centre, way)?.map_or(unit, |r| r.multiplier.min(unit));
+                }
+            }
+            view.size = ends.map(|[up, down]| if up + down > 1e-6 * unit { 0.5 * (up + down) } else { 0.0 });
+            // The mean of all ends: each of them is borne, and so is that.
+            (0..3).for_each(|k| view.centre[k] += (ends[k][0] - ends[k][1]) / 6.0);
+        }
+        Ok(view)
+    }
+
+    /// The bound y·u ≤ 1 that stops a way from the centre of a view, u in its sizes, and y·direction; 0 where nothing stops it.
+    fn bound(&self, view: &View, direction: [f64; 3], unit: f64) -> Result<(f64, [f64; 3]), ContinuumError> {
+        let flat =
+            (0..3).filter(|k| view.size[*k] == 0.0).max_by(|i, j| direction[*i].abs().total_cmp(&direction[*j].abs()));
+        let way = std::array::from_fn(|k| view.size[k] / unit * direction[k]);
+        let mut found = (0.0, [0.0; 3]);
+        if way.iter().any(|v: &f64| v.abs() > 1e-9) {
+            let program = self.program(view.centre.map(|s| s / unit), way, unit);
+            let (most, stresses) = program.gauge()?;
+            found = (most, std::array::from_fn(|k| stresses[k] * view.size[k] / unit));
+        }
+        match flat {
+            Some(k) if direction[k].abs() > found.0 => {
+                Ok((direction[k].abs(), std::array::from_fn(|i| if i == k { direction[k].signum() } else { 0.0 })))
+            }
+            _ => Ok(found),
+        }
     }
 
     /// A stress of the size of those in question in Pa.
@@ -284,8 +377,26 @@ impl Program {
         self.right.iter_mut().zip(add).for_each(|(r, a)| *r += a);
     }
 
+    /// The least s at which s times the domain, seen from the stress to begin with, reaches as far as the goal does at 1; and the
+    /// duals, whose product with the goal is s. It always has an end, also where the goal has none: there s is 0.
+    fn gauge(mut self) -> Result<(f64, [f64; 3]), ContinuumError> {
+        let goal = self.columns.pop().unwrap_or_default();
+        let own = self.columns.len();
+        let given = std::mem::replace(&mut self.right, goal.iter().map(|v| -v).collect());
+        let bounds = std::mem::replace(&mut self.bounds, Vec::new());
+        self.inequalities.extend(bounds.iter().enumerate().filter(|(_, b)| **b != 0.0).map(|(row, b)| (own, -b, row)));
+        self.bounds = vec![0.0; bounds.len()];
+        self.pressed(given.iter().map(|v| -v).collect(), None);
+        self.solve_for(1.0)?.ok_or_else(|| ContinuumError::NotSolved("a gauge without an end".into()))
+    }
+
     /// The largest multiplier and the duals of the last three equations; none where it has no bound.
     fn solve(self) -> Result<Option<(f64, [f64; 3])>, ContinuumError> {
+        self.solve_for(-1.0)
+    }
+
+    /// The least `sense` times the last unknown.
+    fn solve_for(self, sense: f64) -> Result<Option<(f64, [f64; 3])>, ContinuumError> {
         let (n, m) = (self.columns.len(), self.equalities + self.bounds.len());
         let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
         for (k, column) in self.columns.iter().enumerate() {
@@ -305,7 +416,7 @@ impl Program {
         let matrix = CscMatrix::new(m, n, starts, rows, values);
         let right: Vec<f64> = self.right.iter().chain(&self.bounds).copied().collect();
         let mut cost = vec![0.0; n];
-        cost[n - 1] = -1.0;
+        cost[n - 1] = sense;
         let cones = [SupportedConeT::ZeroConeT(self.equalities), SupportedConeT::NonnegativeConeT(self.bounds.len())];
         let settings = DefaultSettings::<f64> {
             verbose: false,

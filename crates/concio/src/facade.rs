@@ -511,7 +511,12 @@ fn leaf(given: &OutOfPlane, wall: &Wall, assumed: &mut Assumptions) -> Result<Op
     if (sum - wall.masonry.thickness).abs() > 1e-3 * wall.masonry.thickness {
         let what = format!("the leaves are {} m thick together", shown(rounded(sum)));
         let allowed = format!("{} m, the thickness of the wall", shown(wall.masonry.thickness));
-        return Err(InputError::new(what).key("out_of_plane.leaves").allowed(allowed).into());
+        let mut error = InputError::new(what).key("out_of_plane.leaves").allowed(allowed);
+        if (1e-3 * sum - wall.masonry.thickness).abs() <= 1e-3 * wall.masonry.thickness {
+            let all: Vec<String> = given.leaves.iter().map(|l| format!("\"{} mm\"", shown(rounded(l.si())))).collect();
+            error = error.help(format!("numbers alone are metres: write [{}]", all.join(", ")));
+        }
+        return Err(error.into());
     }
     let tied = given.leaves_tied.unwrap_or_else(|| {
         assumed.add("out_of_plane.leaves_tied", "nothing ties the leaves: the outer one may fall alone");
@@ -686,5 +691,198 @@ pub fn doubts(case: &Case, wall: &Wall) -> Vec<Warning> {
             ));
         }
     }
+    doubt_building(given, wall, &mut add);
+    doubt_floors(given, wall, &mut add);
+    doubt_mass(case, wall, load, &mut add);
+    doubt_side_walls(given, wall, &mut add);
+    doubt_gable(given, wall, &mut add);
     found
+}
+
+/// Height of a building over that of the wall from which it was hardly meant: a ground floor may bear four storeys more.
+const TALLER: f64 = 5.0;
+/// Least height of a storey [m].
+const STOREY: f64 = 1.5;
+/// Thrust over the load that brings it: vaults and arches as flat as 1 : 20 have 5.
+const THRUSTS: f64 = 5.0;
+/// What pushes over the load that lies on the wall; what is more than the wall itself is looked at alone.
+const PUSHES: f64 = 10.0;
+/// Mass that shakes over what presses.
+const HEAVIER: f64 = 20.0;
+/// Distance of an opening in a side wall over the height of the wall.
+const FAR: f64 = 10.0;
+/// Of the ground's acceleration what a floor has at least.
+const STILLER: f64 = 0.7;
+
+/// A guess at a number that was read so many times too large: the first that lies within.
+fn meant(value: f64, unit: &str, factors: &[f64], within: std::ops::RangeInclusive<f64>) -> String {
+    let guess = factors.iter().map(|factor| value / factor).find(|guess| within.contains(guess));
+    guess.map_or(String::new(), |guess| format!("; did you mean \"{} {unit}\"?", shown(rounded(guess))))
+}
+
+/// Buildings far higher than their wall, storeys in which nobody stands, floors that shake less than the ground.
+fn doubt_building(given: &OutOfPlane, wall: &Wall, add: &mut impl FnMut(String)) {
+    let metres = |v: f64| shown(rounded(v));
+    if let Some(own) = &given.building {
+        let (height, storeys) = (own.height.si(), own.storeys as f64);
+        if height > TALLER * wall.top * (1.0 + 1e-9) {
+            add(format!(
+                "out_of_plane.building.height is {} m, {:.0} times the wall of {} m{}",
+                metres(height),
+                height / wall.top,
+                metres(wall.top),
+                meant(height, "m", &[10.0, 100.0, 1000.0], wall.top..=TALLER * wall.top)
+            ));
+        } else if height < STOREY * storeys * (1.0 - 1e-9) {
+            add(format!(
+                "out_of_plane.building.storeys is {}: in {} m they are {} m high each",
+                own.storeys,
+                metres(height),
+                shown(plausible::rounded(height / storeys, 3))
+            ));
+        }
+    }
+    let grounds = given.site.iter().flat_map(out_of_plane::Site::hazards);
+    let grounds = grounds.filter_map(|(name, hazard)| Some((name, plausible::shakes(hazard)?)));
+    let Some((name, least)) = grounds.min_by(|a, b| a.1.total_cmp(&b.1)) else { return };
+    for (i, own) in given.floor_spectra.iter().enumerate() {
+        let Some(floor) = own.accelerations.first().map(|a| a.si()).filter(|a| *a < STILLER * least) else { continue };
+        let [floor, least] = [floor, least].map(|a| shown(plausible::rounded(a / crate::G, 3)));
+        add(format!(
+            "out_of_plane.floor_spectrum[{i}].accelerations begin at {floor} g, less than the {least} g by which out_of_plane.site.{name} shakes the ground: \
+             floors shake more than it, and the checks aloft are unsafe"
+        ));
+    }
+}
+
+/// Floors in openings, seats longer than the wall is thick, thrusts and pushes many times the load.
+fn doubt_floors(given: &OutOfPlane, wall: &Wall, add: &mut impl FnMut(String)) {
+    let metres = |v: f64| shown(rounded(v));
+    let kilo = |q: f64| shown(plausible::rounded(1e-3 * q, 4));
+    let own_weight = wall.masonry.above(0.0).weight / wall.length();
+    for (i, own) in given.floors.iter().enumerate() {
+        let (key, z, load) = (format!("out_of_plane.floor[{i}]"), own.z.si(), own.load.si());
+        let within = |o: &&[f64; 4]| o[1] + LEVEL < z && z + LEVEL < o[3];
+        let open: f64 = wall.openings.iter().filter(within).map(|o| o[2] - o[0]).sum();
+        if open > 0.0 && load > 0.0 {
+            add(format!(
+                "{key} lies at z = {} m, within openings that take {} of {} m: it rests on the piers alone, and counts along the whole wall; is its level meant so?",
+                metres(z),
+                metres(open),
+                metres(wall.length())
+            ));
+        }
+        let (seat, thickness) = (own.seat_length.map_or(0.0, Length::si), wall.masonry.thickness);
+        if seat > thickness + LEVEL {
+            add(format!(
+                "{key}.seat_length is {} m, and the wall is {} m thick{}",
+                metres(seat),
+                metres(thickness),
+                meant(seat, "m", &[10.0, 100.0, 1000.0], 0.03..=thickness)
+            ));
+        }
+        let beside = given.floors.iter().filter(|other| (other.z.si() - z).abs() <= NEAR);
+        let bears: f64 = beside.map(|other| other.load.si()).sum();
+        let (thrust, push) = (own.thrust.si(), own.push.si());
+        if bears > 0.0 && thrust.abs() > THRUSTS * bears {
+            add(format!(
+                "{key}.thrust is {} kN/m, {:.0} times the load of {} kN/m there: flat vaults thrust with a few times their load",
+                kilo(thrust),
+                thrust.abs() / bears,
+                kilo(bears)
+            ));
+        }
+        if bears > 0.0 && push > PUSHES * bears && push > own_weight {
+            add(format!(
+                "{key}.push is {} kN/m, {:.0} times the load of {} kN/m there, and more than the {} kN/m that the wall weighs",
+                kilo(push),
+                push / bears,
+                kilo(bears),
+                kilo(own_weight)
+            ));
+        }
+    }
+}
+
+/// A mass on top that is many times what presses there; `load` is that of the top [N/m].
+fn doubt_mass(case: &Case, wall: &Wall, load: f64, add: &mut impl FnMut(String)) {
+    let (key, mass) = match (case.load.beam, case.load.mass) {
+        (Beam::Mass(mass), _) => ("load.beam.mass", mass.si()),
+        (Beam::Free, Some(mass)) => ("load.mass", mass.si()),
+        _ => return,
+    };
+    let (presses, shakes) = (load * wall.length(), mass * crate::G);
+    if case.out_of_plane.is_some() && presses > 0.0 && shakes > HEAVIER * presses {
+        let tonnes = 1e-3 * mass;
+        let fits = presses / crate::G * 1e-3;
+        add(format!(
+            "{key} is {} t, which weigh {:.0} times the {} kN of load.top{}",
+            shown(rounded(tonnes)),
+            shakes / presses,
+            shown(plausible::rounded(1e-3 * presses, 4)),
+            meant(tonnes, "t", &[1000.0], 0.05 * fits..=HEAVIER * fits)
+        ));
+    }
+}
+
+/// Openings beside a corner that lie beyond every wall, rafters that meet it where it does not fall.
+fn doubt_side_walls(given: &OutOfPlane, wall: &Wall, add: &mut impl FnMut(String)) {
+    let metres = |v: f64| shown(rounded(v));
+    let (top, length) = (wall.top, wall.length());
+    for (i, own) in given.side_walls.iter().enumerate() {
+        let key = format!("out_of_plane.side_wall[{i}]");
+        let limits = [
+            ("first_opening", own.first_opening, FAR * top, format!("{} times the height of the wall", FAR)),
+            ("opening_beside", own.opening_beside, length, "the length of the wall".into()),
+        ];
+        for (name, way, limit, what) in limits {
+            let Some(way) = way.map(Length::si).filter(|way| *way > limit + LEVEL) else { continue };
+            add(format!(
+                "{key}.{name} is {} m, more than {} m, {what}: it is as if there were no opening{}",
+                metres(way),
+                metres(limit),
+                meant(way, "m", &[100.0, 1000.0], 0.05..=length.max(top))
+            ));
+        }
+        let Some(corner) = own.corner.filter(|corner| corner.load.si() > 0.0) else { continue };
+        // The corner falls with the columns of both walls, and with what the cracks cut off at the top.
+        let [course, overlap] = [own.course_height, own.overlap].map(|l| l.map(Length::si));
+        let steepest = overlap.unwrap_or(wall.texture[1]) / course.unwrap_or(wall.texture[0]);
+        let steepest = steepest.max(wall.texture[1] / wall.texture[0]);
+        let (sin, cos) = corner.direction.map_or(DIAGONAL, |a| a.si()).sin_cos();
+        let reach = top * steepest * sin.max(cos) + own.thickness.si() * cos + wall.masonry.thickness * sin;
+        let at = corner.at.si();
+        if at > reach + LEVEL {
+            add(format!(
+                "{key}.corner.at is {} m, and the corner reaches {} m behind its hinge line at most: there its load holds what does not fall{}",
+                metres(at),
+                shown(plausible::rounded(reach, 3)),
+                meant(at, "m", &[100.0, 1000.0], 0.05..=reach)
+            ));
+        }
+    }
+}
+
+/// Thrusts of a gable that are many times what lies there.
+fn doubt_gable(given: &OutOfPlane, wall: &Wall, add: &mut impl FnMut(String)) {
+    let (Some((gable, press)), Some(own)) = (&wall.gable, &given.gable) else { return };
+    let kilo = |force: f64| shown(plausible::rounded(1e-3 * force, 4));
+    let weight = gable.weight() + gable.load;
+    if *press > 2.0 * weight {
+        add(format!(
+            "out_of_plane.gable.crack_thrust is {} kN, {:.0} times the {} kN that the gable and its ridge weigh: flaps press on each other with a part of that",
+            kilo(*press),
+            press / weight,
+            kilo(weight)
+        ));
+    }
+    let (load, thrust) = (own.ridge_load.si(), own.ridge_thrust.si());
+    if load > 0.0 && thrust.abs() > THRUSTS * load {
+        add(format!(
+            "out_of_plane.gable.ridge_thrust is {} kN, {:.0} times the ridge_load of {} kN",
+            kilo(thrust),
+            thrust.abs() / load,
+            kilo(load)
+        ));
+    }
 }

@@ -118,6 +118,14 @@ fn options_change_what_is_assumed() {
     };
     let told = doubts("10MPa");
     assert!(told.contains("bricks of 10 MPa are softer than adobe") && told.contains("were 10 GPa meant?"), "{told}");
+    let pressed = |pressure: &str| {
+        let found = json(&desk, &format!("continuum wall.toml --json --pressure {pressure}"));
+        found["panels"][0]["warnings"].to_string()
+    };
+    assert!(
+        pressed("300MPa").contains("a pressure of 300 MPa is more than walls bear, up to 50 MPa: were 0.3 MPa meant?")
+    );
+    assert!(!pressed("5MPa").contains("a pressure of"));
     assert!(doubts("90GPa").contains("bricks of 90 GPa are stiffer than any"));
     for fine in ["80MPa", "10GPa", "60GPa"] {
         assert!(!doubts(fine).contains("bricks of"), "{fine}");
@@ -238,7 +246,8 @@ fn walls_that_have_none_are_refused() {
     refused(good(), "continuum wall.toml --card json --units stone-foot", &["--units", "stone-foot", "N-mm"]);
     refused(good(), "continuum wall.toml --card json --units N-mm-kg", &["kg", "not the mass"]);
     refused(good(), "continuum wall.toml --pressure 3", &["unit is missing"]);
-    refused(good(), "continuum wall.toml --brick-modulus=-1GPa", &["allowed"]);
+    refused(good(), "continuum wall.toml --brick-modulus -1GPa", &["allowed: above 0GPa"]);
+    refused(good(), "continuum wall.toml --pressure -1MPa", &["allowed: from 0MPa"]);
     for (bare, unit) in [("10", "10GPa"), ("10000", "10000MPa"), ("1e10", "1e10Pa")] {
         refused(good(), &format!("continuum wall.toml --brick-modulus {bare}"), &["unit is missing", unit]);
     }

@@ -515,6 +515,16 @@ fn the_motion_of_the_file_and_mistakes() {
     refused("mechanisms facade.toml --scale 2", &["--record"]);
     refused("mechanisms facade.toml --record shaking.csv --pga 0.3", &["the unit is missing"]);
     refused("mechanisms facade.toml --record shaking.csv --scale 2 --pga 0.3g", &["cannot be used with"]);
+    // What begins with a minus is a number that is refused as such, and no option.
+    for (line, allowed) in [
+        ("mechanisms facade.toml --record shaking.csv --scale -1", "a number above 0"),
+        ("mechanisms facade.toml --record shaking.csv --pga -0.3g", "above 0 g"),
+        ("mechanisms facade.toml --record shaking.csv --restitution -0.5", "a number from 0 to 1"),
+        ("mechanisms facade.toml --trilinear -0.1,0.4", "two rising numbers above 0"),
+        ("limit facade.toml --out-of-plane --above -1m", "above 0m"),
+    ] {
+        refused(line, &["invalid value '-", allowed]);
+    }
     refused("mechanisms facade.toml --record shaking.csv --restitution 1.5", &["from 0 to 1"]);
     refused(
         "mechanisms laden.toml --record shaking.csv --restitution 1",

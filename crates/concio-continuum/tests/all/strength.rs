@@ -1,7 +1,7 @@
 //! Strength: planes in closed form, against the linear program of the forces in a cell.
 
 use concio_continuum::{
-    Cell, Domain, Laying, Plane, RunningBond, Stiffness, Strength, cut, dry_bending, holds, planes,
+    Cell, CellCourse, Domain, Laying, Plane, RunningBond, Stiffness, Strength, cut, dry_bending, holds, planes,
 };
 use concio_verified::agrees;
 
@@ -94,13 +94,98 @@ fn the_program_finds_the_planes() {
     for (a, mu, c) in [(0.065, 0.6, 0.1e6), (0.4, 0.9, 0.1e6), (0.2, 0.65, 0.0)] {
         let (bond, cell) = bond(0.26, a);
         let law = Strength::coulomb(c, mu);
-        let found = Domain::new(&cell, Some(law), Some(law)).planes([0.0, -0.2e6, 0.0], 400).expect("planes");
+        let found = Domain::new(&cell, Some(law), Some(law)).planes([0.0, -0.2e6, 0.0], 400).expect("planes").planes;
         let closed = planes(&bond, law);
         for plane in &closed {
             assert!(has(&found, plane, 0.2e6), "a {a} μ {mu}: {plane:?} not in {found:#?}");
         }
         assert_eq!(found.len(), closed.len(), "a {a} μ {mu}: {found:#?}");
     }
+}
+
+/// A dry stack bond: heads and beds slide each by themselves, |σ12| + μ σ11 ≤ 0 and |σ12| + μ σ22 ≤ 0, also where the search
+/// begins on the bound of it.
+#[test]
+fn stack_bonds_have_their_planes() {
+    let laying = Laying { thickness: 0.2, mortar: [0.0; 2], bed: JOINTS, head: JOINTS };
+    let course = |n| CellCourse { height: 0.2, bricks: vec![0.3; n], offset: 0.0 };
+    let cells = [
+        ("low bricks", Cell::shifted(0.3, 0.1, 0.0, &laying)),
+        ("high bricks", Cell::shifted(0.3, 0.7, 0.0, &laying)),
+        ("six bricks", Cell::of_courses(&[course(3), course(3)], 0.0, &laying)),
+    ];
+    for (name, cell) in cells {
+        let cell = cell.expect("a cell");
+        for mu in [0.1, 0.5, 0.65, 1.0, 1.4] {
+            let law = Strength::dry(mu);
+            let found = Domain::new(&cell, Some(law), Some(law)).planes([0.0, -8e3, 0.0], 400).expect("planes");
+            assert_eq!((found.planes.len(), found.excess), (4, 0.0), "{name} μ {mu}: {found:#?}");
+            for a in [[mu, 0.0, 1.0], [mu, 0.0, -1.0], [0.0, mu, 1.0], [0.0, mu, -1.0]] {
+                let most = mu.max(1.0);
+                let plane = Plane { a: a.map(|v| v / most), b: 0.0 };
+                assert!(has(&found.planes, &plane, 8e3), "{name} μ {mu}: {plane:?} not in {found:#?}");
+            }
+        }
+        let open = Domain::new(&cell, Some(Strength::dry(0.5)), None).planes([0.0, -8e3, 0.0], 400).expect("planes");
+        assert_eq!(cut(&open.planes, [0.0, -8e3, 0.0], [0.0, 0.0, 1.0]), 0.0, "{name}: open heads bear no shear");
+        assert_eq!(
+            cut(&open.planes, [0.0, -8e3, 0.0], [-1.0, 0.0, 0.0]),
+            0.0,
+            "{name}: nor pressure along the courses"
+        );
+    }
+}
+
+/// Cells of which no closed form is known: planes against programs in 100 directions each, from where nothing searched.
+#[test]
+fn no_plane_is_missing() {
+    let laying = Laying { thickness: 0.2, mortar: [0.0; 2], bed: JOINTS, head: JOINTS };
+    let course = |height, bricks: &[f64], offset| CellCourse { height, bricks: bricks.to_vec(), offset };
+    let bonded = Strength { cohesion: 0.1e6, friction: 0.6, tension: 0.08e6, compression: f64::INFINITY };
+    let courses = [course(0.1, &[0.3, 0.15], 0.0), course(0.06, &[0.3, 0.15], 0.075), course(0.08, &[0.2, 0.25], 0.05)];
+    let cells = [
+        ("stack", Cell::shifted(0.3, 0.1, 0.0, &laying)),
+        ("third", Cell::shifted(0.3, 0.1, 1.0 / 3.0, &laying)),
+        ("half", Cell::shifted(0.25, 0.2, 0.5, &laying)),
+        ("courses", Cell::of_courses(&courses, 0.0, &laying)),
+    ];
+    let mut roll = dice();
+    let mut worst = 0.0f64;
+    for (name, cell) in cells {
+        let cell = cell.expect("a cell");
+        let dry = Strength::dry(0.55);
+        for (bed, head) in [(dry, Some(dry)), (bonded, Some(bonded)), (bonded, Some(dry)), (bonded, None)] {
+            let domain = Domain::new(&cell, Some(bed), head);
+            let found = domain.planes([0.0, -20e3, 0.0], 1000).expect("planes");
+            assert_eq!(found.excess, 0.0, "{name} {bed:?} {head:?}");
+            for _ in 0..100 {
+                let from = [-1e3 * roll(), -20e3 - 80e3 * roll(), 0.0];
+                let direction = [0, 1, 2].map(|_| roll() - 0.5);
+                let by_planes = cut(&found.planes, from, direction);
+                match domain.reach(from, direction) {
+                    Ok(Some(reach)) => {
+                        worst = worst.max((by_planes - reach.multiplier).abs() / (20e3 + reach.multiplier))
+                    }
+                    Ok(None) => assert!(by_planes > 1e9, "{name} {direction:?}: {by_planes}"),
+                    // Flat domains: nothing along the courses.
+                    Err(_) => assert!(by_planes < 1.0, "{name} {direction:?}: {by_planes}"),
+                }
+            }
+        }
+    }
+    agrees!("Continuum: planes of bonds without a closed form, 1,600 directions", "linear programs, largest relative difference", "", worst, 0.0, abs: 1e-6);
+}
+
+/// A search that is stopped says how far the planes then reach.
+#[test]
+fn a_stopped_search_says_what_it_misses() {
+    let (_, cell) = bond(0.26, 0.065);
+    let law = Strength { cohesion: 0.2e6, friction: 0.6, tension: 0.05e6, compression: 3e6 };
+    let domain = Domain::new(&cell, Some(law), Some(law));
+    let found = domain.planes([0.0, -0.2e6, 0.0], 30).expect("planes");
+    assert!(found.excess > 0.0, "{found:?}");
+    let whole = domain.planes([0.0, -0.2e6, 0.0], 2000).expect("planes");
+    assert!(whole.excess < found.excess, "{whole:?}");
 }
 
 /// The planes do not hold with mortar between the bricks, with heads that do not rub, above μ = 1, with a cut of tension.

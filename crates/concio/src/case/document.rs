@@ -136,6 +136,10 @@ fn hinted(error: Error, text: &str, syntax: Syntax) -> Error {
         if error.help.is_some() || syntax == Syntax::Json {
             return Error::Input(error);
         }
+        error.help = both_kinds(text, line);
+        if error.help.is_some() {
+            return Error::Input(error);
+        }
         let values = line.split(['=', '{']).skip(1);
         error.help = values.map(str::trim).find_map(de::decimal_comma).or_else(|| {
             if line.trim_start().starts_with("[panel]") {
@@ -146,6 +150,18 @@ fn hinted(error: Error, text: &str, syntax: Syntax) -> Error {
         });
     }
     Error::Input(error)
+}
+
+/// What to write where a list of tables is also a table: `[a]` and `[[a]]`.
+fn both_kinds(text: &str, line: &str) -> Option<String> {
+    let header = |line: &str| {
+        let inner = line.trim().split('#').next()?.trim().strip_prefix('[')?.strip_suffix(']')?;
+        let list = inner.strip_prefix('[').and_then(|name| name.strip_suffix(']'));
+        Some((list.unwrap_or(inner).trim().to_string(), list.is_some()))
+    };
+    let (name, is_list) = header(line)?;
+    let other = text.lines().position(|other| header(other).is_some_and(|(n, list)| n == name && list != is_list))?;
+    Some(format!("line {} has it with other brackets: write `[[{name}]]` both times", other + 1))
 }
 
 /// What to write instead of a line with quotes that word processors make, where they stand outside of a text.

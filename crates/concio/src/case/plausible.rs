@@ -155,7 +155,8 @@ const SEAT: Expected =
 /// Way that a loose tie leaves: more, and the wall has fallen.
 const TIE_SLACK: Expected = Expected { limits: [1e-6, 0.2], usual: [1e-4, 0.1], unit: "m", slips: &[FROM_MM, FROM_CM] };
 /// Way at which a tie breaks.
-const TIE_BREAK: Expected = Expected { limits: [1e-5, 1.0], usual: [1e-3, 0.5], unit: "m", slips: &[FROM_MM, FROM_CM] };
+const TIE_BREAK: Expected =
+    Expected { limits: [5e-4, 1.0], usual: [1e-3, 0.5], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "mm", 1e-3)] };
 /// Overlaps and courses of side walls.
 const SIDE_BLOCK: Expected =
     Expected { limits: [5e-3, 2.0], usual: [0.02, 1.0], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)] };
@@ -307,7 +308,7 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane, case: &Case) {
         doubts.add(WarningKind::UnlikelyNumber, text);
     }
     doubts.look_for_twins("floor", &own.floors, "its load counts twice");
-    of_floors_at_one_level(doubts, &own.floors);
+    of_floors_at_one_level(doubts, &own.floors, case);
     doubts.look_for_twins("anchor", &own.anchors, "it holds with twice its force");
     doubts.look_for_twins("side_wall", &own.side_walls, "its weight and its friction count twice");
     of_side_walls(doubts, &own.side_walls, longest(case));
@@ -398,11 +399,14 @@ fn height(panel: &Panel) -> f64 {
     panel.courses.filter(|_| regular).map_or(f64::INFINITY, |courses| course * courses as f64)
 }
 
-/// Floors of other loads that lie on the same place: one above the other has its own level, and floors on both sides have their own depth.
-fn of_floors_at_one_level(doubts: &mut Doubts, floors: &[FloorLoad]) {
+/// Floors that differ and lie on the same place: one above the other has its own level, and floors on both sides have their own half of
+/// the thickness.
+fn of_floors_at_one_level(doubts: &mut Doubts, floors: &[FloorLoad], case: &Case) {
     let laden = |floor: &FloorLoad| floor.load.si() > 0.0;
+    let thickness = case.panels.iter().map(|panel| panel.brick.thickness.si()).fold(f64::INFINITY, f64::min);
+    let half = |floor: &FloorLoad| floor.at.map(|at| at.si() > 0.5 * thickness);
     for (second, own) in floors.iter().enumerate().filter(|(_, own)| laden(own)) {
-        let meets = |other: &FloorLoad| laden(other) && other != own && other.z == own.z && other.at == own.at;
+        let meets = |other: &FloorLoad| laden(other) && other != own && other.z == own.z && half(other) == half(own);
         if let Some(first) = floors[..second].iter().position(meets) {
             let [one, other, sum] = [floors[first].load.si(), own.load.si(), floors[first].load.si() + own.load.si()]
                 .map(|load| shown(rounded(1e-3 * load, 4)));
@@ -467,7 +471,7 @@ fn of_side_walls(doubts: &mut Doubts, all: &[SideWall], longest: f64) {
 }
 
 /// S_e(0) [m/s²]: a_g S, or the first of the columns.
-fn shakes(hazard: &Hazard) -> Option<f64> {
+pub(crate) fn shakes(hazard: &Hazard) -> Option<f64> {
     let ground = hazard.ground_acceleration.map(|a| a.si() * hazard.soil_factor.unwrap_or(1.0));
     ground.or_else(|| hazard.accelerations.first().map(|a| a.si()))
 }
@@ -694,7 +698,9 @@ fn of_panel(doubts: &mut Doubts, at: &str, panel: &Panel) {
     }
     if let Some(arch) = panel.arch {
         doubts.look(&format!("{at}.arch.span"), arch.span.si(), &PANEL);
-        doubts.look(&format!("{at}.arch.rise"), arch.rise.si(), &PANEL);
+        // A guess beyond half the span would be refused.
+        let rise = Expected { usual: [PANEL.usual[0], PANEL.usual[1].min(0.5 * arch.span.si())], ..PANEL };
+        doubts.look(&format!("{at}.arch.rise"), arch.rise.si(), &rise);
         doubts.look(&format!("{at}.arch.thickness"), arch.thickness.si(), &BRICK);
         doubts.look(&format!("{at}.arch.springing"), arch.springing.si(), &PANEL);
     }

@@ -277,6 +277,7 @@ fn keys_and_values() -> Vec<Bad> {
         "empty file", "  \n", "", "", "the file is empty", "concio new";
         "not TOML", edit("courses = 6", "courses = = 6"), "courses", "", "not valid TOML", "";
         "key given twice", edit("courses = 6", "courses = 6\ncourses = 7"), "courses = 7", "", "duplicate key", "";
+        "a list with a table", format!("{GOOD}[out_of_plane.floor]\nz = 1\n[[out_of_plane.floor]] # the roof\nz = 2\n"), "[[out_of_plane.floor]]", "", "duplicate key", "write `[[out_of_plane.floor]]` both times";
         "unknown key", edit("courses = 6", "corses = 6"), "corses", "panel[0].corses", "unknown key", "did you mean `courses`?";
         "hyphen in a key", edit("slip_velocity", "slip-velocity"), "friction", "joint.friction.slip-velocity", "unknown key", "did you mean `slip_velocity`?";
         "one panel in one bracket", edit("[[panel]]", "[panel]"), "[panel]", "panel", "a table cannot stand here", "[[two brackets]]";

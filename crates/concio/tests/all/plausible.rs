@@ -266,6 +266,10 @@ fn slips_behind_a_wall_are_told() {
             "floor[0].seat_length is 100 m, more than 2 m; did you mean \"100 mm\"?",
         ),
         (tie("z = 5.8\nslack = 5"), "anchor[0].slack is 5 m, more than 0.2 m; did you mean \"5 mm\"?"),
+        (
+            tie("z = 5.8\nbreaks_at = \"0.08 mm\""),
+            "anchor[0].breaks_at is 8e-5 m, less than 0.0005 m; did you mean \"80 mm\"?",
+        ),
         (tie("z = 5.8\nbreaks_at = 50"), "anchor[0].breaks_at is 50 m, more than 1 m; did you mean \"50 mm\"?"),
         (side("x = 0\nthickness = 400"), "side_wall[0].thickness is 400 m, more than 3 m; did you mean \"400 mm\"?"),
         (side("x = 0\nthickness = 8"), "side_wall[0].thickness is 8 m, more than 3 m; did you mean \"0.8 m\"?"),
@@ -326,6 +330,15 @@ fn slips_that_the_laid_wall_shows_are_told() {
         let wall = concio::facade::of(case).unwrap_or_else(|e| panic!("{e}"));
         concio::facade::doubts(case, &wall)
     };
+    let behind = |table: &str, keys: &str| format!("[out_of_plane{table}]\n{keys}");
+    let floor = |keys: &str| format!("[[out_of_plane.floor]]\n{keys}");
+    let side = |keys: &str| format!("[[out_of_plane.side_wall]]\nx = 0\nthickness = 0.4\n{keys}");
+    let floors_shake = |by: &str| {
+        format!(
+            "site.life_safety = {{ ground_acceleration = \"0.25 g\", soil_factor = 1.2, amplification = 2.4, corner_period = 0.4 }}\n\
+             floor_spectrum = [{{ z = 6, periods = [0, 1], accelerations = [\"{by} g\", \"0.1 g\"] }}]"
+        )
+    };
     let spectrum = |z: f64| {
         format!(
             "[[out_of_plane.floor_spectrum]]\nz = {z}\nperiods = [0, 1]\naccelerations = [4, 5]\n[out_of_plane.building]\nheight = 9\nstoreys = 3"
@@ -352,6 +365,64 @@ fn slips_that_the_laid_wall_shows_are_told() {
             spectrum(9.0),
             "out_of_plane.floor_spectrum[0].z is 9 m, farther than 0.5 m from every joint of the wall, which ends at 6 m: nothing uses it",
         ),
+        (
+            behind("", &floors_shake("0.04")),
+            "out_of_plane.floor_spectrum[0].accelerations begin at 0.04 g, less than the 0.3 g by which out_of_plane.site.life_safety shakes the ground: \
+             floors shake more than it, and the checks aloft are unsafe",
+        ),
+        (
+            behind(".building", "height = 60\nstoreys = 2"),
+            "out_of_plane.building.height is 60 m, 10 times the wall of 6 m; did you mean \"6 m\"?",
+        ),
+        (
+            behind(".building", "height = 6\nstoreys = 20"),
+            "out_of_plane.building.storeys is 20: in 6 m they are 0.3 m high each",
+        ),
+        (
+            floor("z = 1\nload = 8e3"),
+            "out_of_plane.floor[0] lies at z = 1 m, within openings that take 1 of 5 m: it rests on the piers alone, and counts along the whole wall; \
+             is its level meant so?",
+        ),
+        (
+            floor("z = 3\nload = 8e3\nseat_length = 2"),
+            "out_of_plane.floor[0].seat_length is 2 m, and the wall is 0.5 m thick; did you mean \"0.2 m\"?",
+        ),
+        (
+            floor("z = 6\nload = 6e3\nthrust = 80e3"),
+            "out_of_plane.floor[0].thrust is 80 kN/m, 13 times the load of 6 kN/m there: flat vaults thrust with a few times their load",
+        ),
+        (
+            floor("z = 3\nload = 12e3\npush = 500e3"),
+            "out_of_plane.floor[0].push is 500 kN/m, 42 times the load of 12 kN/m there, and more than the 50.4 kN/m that the wall weighs",
+        ),
+        (
+            "[load]\ntop = \"40 kN/m\"\nmass = \"4000 t\"\n[out_of_plane]".into(),
+            "load.mass is 4000 t, which weigh 196 times the 200 kN of load.top; did you mean \"4 t\"?",
+        ),
+        (
+            side("first_opening = 150"),
+            "out_of_plane.side_wall[0].first_opening is 150 m, more than 60 m, 10 times the height of the wall: it is as if there were no opening; \
+             did you mean \"1.5 m\"?",
+        ),
+        (
+            side("opening_beside = 300"),
+            "out_of_plane.side_wall[0].opening_beside is 300 m, more than 5 m, the length of the wall: it is as if there were no opening; \
+             did you mean \"3 m\"?",
+        ),
+        (
+            side("corner = { load = 8e3, at = 40 }"),
+            "out_of_plane.side_wall[0].corner.at is 40 m, and the corner reaches 9.12 m behind its hinge line at most: there its load holds what does \
+             not fall; did you mean \"0.4 m\"?",
+        ),
+        // 18 kN/m³ × 5 × 2/2 m² × 0.5 m and 10 kN.
+        (
+            behind(".gable", "height = 2\nridge_load = 10e3\ncrack_thrust = 5e6"),
+            "out_of_plane.gable.crack_thrust is 5000 kN, 91 times the 55 kN that the gable and its ridge weigh: flaps press on each other with a part of that",
+        ),
+        (
+            behind(".gable", "height = 2\nridge_load = 10e3\nridge_thrust = 100e3"),
+            "out_of_plane.gable.ridge_thrust is 100 kN, 10 times the ridge_load of 10 kN",
+        ),
     ] {
         assert_eq!(found(&facade(&behind)), [told], "{behind}");
     }
@@ -362,6 +433,15 @@ fn slips_that_the_laid_wall_shows_are_told() {
         "[[out_of_plane.side_wall]]\nx = 2.5\nthickness = 0.4\nbonded = false".into(),
         "[load]\ntop = \"8 kN/m\"\n[[out_of_plane.floor]]\nz = 3\nload = \"8 kN/m\"".into(),
         spectrum(6.2),
+        behind("", &floors_shake("0.3")),
+        // A ground floor under four others, a vault of 1 : 20, a floor that rests elsewhere, one on a lintel.
+        behind(".building", "height = 30\nstoreys = 12"),
+        floor("z = 3\nload = 4e3\nthrust = 20e3"),
+        floor("z = 3\nload = 1e3\npush = 40e3\nseat_length = 0.5"),
+        floor("z = 2\nload = 8e3"),
+        "[load]\ntop = \"10 kN/m\"\nmass = \"60 t\"\n[out_of_plane]".into(),
+        side("first_opening = 40\nopening_beside = 5\ncorner = { load = 8e3, at = 2 }"),
+        behind(".gable", "height = 2\nridge_load = 10e3\nridge_thrust = 20e3\ncrack_thrust = 60e3"),
     ] {
         assert_eq!(found(&facade(&fine)), [""; 0], "{fine}");
     }
@@ -422,6 +502,7 @@ fn floors_at_one_level_and_guesses_beyond_the_wall() {
             "out_of_plane.floor[1] lies at z = 3 m as out_of_plane.floor[0] does: 12 and 6 kN/m both count, 18 kN/m together; is its level meant so?"
         ]
     );
+    assert_eq!(of(&(floor(3.0, "12 kN/m", "at = 0.35") + &floor(3.0, "6 kN/m", "at = 0.3"))).len(), 1);
     // Floors on both sides have their own places, and levels differ as a rule.
     assert_eq!(of(&(floor(3.0, "12 kN/m", "at = 0.4") + &floor(3.0, "6 kN/m", "at = 0.1"))), [""; 0]);
     assert_eq!(of(&(floor(3.0, "12 kN/m", "") + &floor(6.0, "6 kN/m", ""))), [""; 0]);
@@ -456,6 +537,16 @@ fn floors_at_one_level_and_guesses_beyond_the_wall() {
         ]
     );
     assert_eq!(door("40 mm"), [""; 0]);
+    let arch = |rise: &str| {
+        doubts(&case(&format!(
+            "model = \"planar\"\n[[panel]]\nbond = \"arch\"\narch = {{ span = 2, rise = {rise}, thickness = 0.25, voussoirs = 21 }}\n\
+             brick = {{ length = 0.3, height = 0.25, thickness = 0.3, specific_weight = 20e3 }}\n[joint]\nbed = {{ law = \"rigid\" }}\n\
+             head = {{ law = \"rigid\" }}\nfriction = {{ law = \"coulomb\", static = 0.6 }}\n[motion]\nduration = 1\n"
+        )))
+    };
+    // 10 m rise more than half the span.
+    assert_eq!(arch("0.01"), ["panel[0].arch.rise is 0.01 m, less than 0.05 m"]);
+    assert_eq!(arch("0.0005"), ["panel[0].arch.rise is 0.0005 m, less than 0.05 m; did you mean \"0.5 m\"?"]);
 }
 
 /// A record whose interval is ten times too long, corner periods in milliseconds.
