@@ -523,21 +523,23 @@ fn modulus(text: &str) -> Result<f64, String> {
             _ => "Pa",
         },
     )?;
-    match pressure(text)? {
-        v if v > 0.0 => Ok(v),
-        _ => Err("allowed: above 0GPa".into()),
-    }
+    stress(text)?.filter(|v| *v > 0.0).ok_or_else(|| "allowed: above 0GPa".into())
 }
 
-/// A stress from 0 in Pa; GPa are for moduli.
+/// A stress from 0 in Pa.
 fn pressure(text: &str) -> Result<f64, String> {
+    stress(text)?.filter(|v| *v >= 0.0).ok_or_else(|| "allowed: from 0MPa".into())
+}
+
+/// A stress in Pa, none that is not finite; GPa are for moduli.
+fn stress(text: &str) -> Result<Option<f64>, String> {
     with_unit(text, "MPa")?;
     let trimmed = text.trim();
     let value = match trimmed.strip_suffix("GPa").map(|number| number.trim().parse::<f64>()) {
         Some(Ok(number)) => 1e9 * number,
         _ => Stress::parse(trimmed)?.si(),
     };
-    if value >= 0.0 && value.is_finite() { Ok(value) } else { Err("allowed: from 0MPa".into()) }
+    Ok(Some(value).filter(|v| v.is_finite()))
 }
 
 fn shard(text: &str) -> Result<[usize; 2], String> {
@@ -688,7 +690,7 @@ pub struct FirstCrack {
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
     /// Accelerograms, with commas between them; without them the wall's own motion.
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_hint = ValueHint::FilePath, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_hint = ValueHint::FilePath)]
     pub records: Vec<PathBuf>,
     /// What counts as a crack.
     #[arg(long, value_enum, default_value = "bond")]
