@@ -383,7 +383,7 @@ impl Program {
         let goal = self.columns.pop().unwrap_or_default();
         let own = self.columns.len();
         let given = std::mem::replace(&mut self.right, goal.iter().map(|v| -v).collect());
-        let bounds = std::mem::replace(&mut self.bounds, Vec::new());
+        let bounds = std::mem::take(&mut self.bounds);
         self.inequalities.extend(bounds.iter().enumerate().filter(|(_, b)| **b != 0.0).map(|(row, b)| (own, -b, row)));
         self.bounds = vec![0.0; bounds.len()];
         self.pressed(given.iter().map(|v| -v).collect(), None);
