@@ -409,7 +409,7 @@ fn slips_that_the_laid_wall_shows_are_told() {
             "out_of_plane.side_wall[0].opening_beside is 300 m, more than 5 m, the length of the wall: it is as if there were no opening; \
              did you mean \"3 m\"?",
         ),
-        // (6 × 1.854 + 0.4 + 0.5) cos 45°: the mean overlap is 1.854 times the mean course.
+        // (6 × 1.85 + 0.4 + 0.5) cos 45°: the mean overlap is about 1.85 times the mean course.
         (
             side("corner = { load = 8e3, at = 40 }"),
             "out_of_plane.side_wall[0].corner.at is 40 m, and the corner reaches 8.5 m behind its hinge line at most: there its load holds what does \
