@@ -439,8 +439,8 @@ impl Ask<'_> {
             }
         };
         // What is left of a bound that goes through this stress is rounding.
-        let rounded = |way: f64| if way < 1e-7 * self.pressure { 0.0 } else { way };
-        let to = |direction: [f64; 3]| Some(rounded(cut(&found, from, direction))).filter(|v| v.is_finite());
+        let settled = |way: f64| if way.abs() < 1e-7 * self.pressure { 0.0 } else { way };
+        let to = |direction: [f64; 3]| Some(settled(cut(&found, from, direction))).filter(|v| v.is_finite());
         let shear = [to([0.0, 0.0, 1.0]), to([0.0, 0.0, -1.0])].into_iter().flatten().reduce(f64::min);
         Ok(Some(StrengthFound { closed: is_closed, tension: to([1.0, 0.0, 0.0]), shear, planes: found }))
     }
@@ -449,7 +449,7 @@ impl Ask<'_> {
 /// Says of planes that were not all verified how far they go astray.
 fn incomplete(excess: f64, which: &str, programs: usize) -> Option<String> {
     let how = match excess {
-        0.0 => return None,
+        part if part < 1e-5 => return None,
         part if part.is_finite() => format!("up to {:.2} % too far", 100.0 * part),
         _ => "without an end in a direction where the wall may have one".into(),
     };

@@ -76,6 +76,9 @@ pub fn corners(points: &[[f64; 3]]) -> Vec<[f64; 3]> {
         }
     }
     let sides = facets(&once);
+    if sides.is_empty() {
+        return once;
+    }
     let mut kept = vec![true; once.len()];
     for own in 0..once.len() {
         // What could hold it shares a side with it.

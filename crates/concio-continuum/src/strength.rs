@@ -116,8 +116,8 @@ impl View {
 
 /// Directions in which the search begins.
 const SEEDS: usize = 26;
-/// Times that the search goes to the middle of the domain before it begins.
-const PASSES: usize = 3;
+/// Times that the domain is measured before the search begins, each time from its middle as it was measured last.
+const PASSES: usize = 4;
 /// How far planes may reach over the wall where they are verified.
 const VERIFIED: f64 = 1e-6;
 /// Strips of a joint that can crush.
@@ -179,9 +179,10 @@ impl<'c> Domain<'c> {
         }
         loop {
             found = polar::corners(&found);
-            excess = 0.0;
+            let sides = polar::facets(&found);
+            excess = if sides.is_empty() { f64::INFINITY } else { 0.0 };
             let mut more = Vec::new();
-            for side in polar::facets(&found) {
+            for side in sides {
                 let like = |d: &[f64; 3]| (0..3).all(|k| (d[k] - side.normal[k]).abs() < 1e-7);
                 let known = asked.iter().find(|(d, _)| like(d)).map(|(_, most)| *most);
                 let most = match known {
@@ -200,11 +201,13 @@ impl<'c> Domain<'c> {
                     excess = excess.max(if ends { most / side.offset - 1.0 } else { f64::INFINITY });
                 }
             }
-            if more.is_empty() || asked.len() >= programs {
+            let ends = more.is_empty() || asked.len() >= programs;
+            found.extend(more);
+            if ends {
                 break;
             }
-            found.extend(more);
         }
+        found = polar::corners(&found);
         let mut planes: Vec<Plane> = found.iter().map(|y| view.plane(*y, unit)).collect();
         planes.sort_by(|p, q| q.a.partial_cmp(&p.a).unwrap_or(std::cmp::Ordering::Equal));
         Ok(Planes { planes, excess })
@@ -213,19 +216,31 @@ impl<'c> Domain<'c> {
     /// A stress well inside the domain, and how far the domain goes from there along each axis, at most one `unit`.
     fn view(&self, inside: [f64; 3], unit: f64) -> Result<View, ContinuumError> {
         let mut view = View { centre: inside, size: [0.0; 3] };
-        for _ in 0..PASSES {
-            let mut ends = [[0.0; 2]; 3];
-            for (k, pair) in ends.iter_mut().enumerate() {
-                for (end, sign) in pair.iter_mut().zip([1.0, -1.0]) {
-                    let way = std::array::from_fn(|i| if i == k { sign } else { 0.0 });
-                    *end = self.reach(view.centre, way)?.map_or(unit, |r| r.multiplier.min(unit));
-                }
-            }
-            view.size = ends.map(|[up, down]| if up + down > 1e-6 * unit { 0.5 * (up + down) } else { 0.0 });
+        let mut next = inside;
+        for pass in 0..PASSES {
+            let ends = match self.ends(next, unit) {
+                // On the bound of a domain, by rounding.
+                Err(ContinuumError::Outside) if pass > 0 => break,
+                ends => ends?,
+            };
+            let size = ends.map(|[up, down]| if up + down > 1e-6 * unit { 0.5 * (up + down) } else { 0.0 });
+            view = View { centre: next, size };
             // The mean of all ends: each of them is borne, and so is that.
-            (0..3).for_each(|k| view.centre[k] += (ends[k][0] - ends[k][1]) / 6.0);
+            (0..3).for_each(|k| next[k] += (ends[k][0] - ends[k][1]) / 6.0);
         }
         Ok(view)
+    }
+
+    /// How far the domain goes up and down along each axis, at most one `unit`.
+    fn ends(&self, from: [f64; 3], unit: f64) -> Result<[[f64; 2]; 3], ContinuumError> {
+        let mut ends = [[0.0; 2]; 3];
+        for (k, pair) in ends.iter_mut().enumerate() {
+            for (end, sign) in pair.iter_mut().zip([1.0, -1.0]) {
+                let way = std::array::from_fn(|i| if i == k { sign } else { 0.0 });
+                *end = self.reach(from, way)?.map_or(unit, |r| r.multiplier.min(unit));
+            }
+        }
+        Ok(ends)
     }
 
     /// The bound y·u ≤ 1 that stops a way from the centre of a view, u in its sizes, and y·direction; 0 where nothing stops it.

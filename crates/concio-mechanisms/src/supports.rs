@@ -10,7 +10,7 @@
 //! it settles (Dinkelbach, as in [`crate::overturning`]). A floor without a known force has the second manner alone.
 
 use crate::facade::{Floor, Masonry, Piece, Tie};
-use crate::wall::Wall;
+use crate::wall::{FloorOf, Wall};
 
 /// Heights within this are one level [m].
 const LEVEL: f64 = 1e-6;
@@ -70,7 +70,10 @@ impl<'w> Supports<'w> {
             let floors = numbers(wall.floors.iter().map(|f| f.floor.level).collect());
             let ties = numbers(wall.ties.iter().map(|t| t.level).collect());
             let holding = || floors.iter().map(|i| &wall.floors[*i]).filter(|f| f.holds);
-            let borne = holding().map(|f| wall.borne(f)).collect::<Option<Vec<f64>>>().map(|all| all.iter().sum());
+            // Ties beside them count once.
+            let beside = wall.beside(level);
+            let of = |f: &FloorOf| wall.borne(f).map(|borne| borne - wall.beside(f.floor.level));
+            let borne = holding().map(of).sum::<Option<f64>>().map(|floors| floors + beside);
             let load =
                 |from: f64| wall.floors.iter().filter(|f| f.floor.level > from).map(|f| f.floor.load).sum::<f64>();
             let below = wall.masonry.above(low).weight + load(low + LEVEL);
@@ -90,6 +93,29 @@ impl<'w> Supports<'w> {
     pub(crate) fn blocks(&self, joint: f64) -> bool {
         let on_joint = |h: &Held| h.course[0] <= joint + LEVEL && joint < h.level - LEVEL;
         self.held.iter().any(|h| h.borne.is_none() && on_joint(h))
+    }
+
+    /// Floors as parts of the wall have them that turn by themselves: a known force holds no more than the bed joints of its course bear.
+    /// From the bed joint `slid` [m] on courses whose floors have none slide: floors stay on them.
+    pub(crate) fn of_parts(&self, slid: f64) -> Vec<Floor> {
+        let mut floors: Vec<Floor> = self.wall.floors.iter().map(|f| f.floor).collect();
+        for held in &self.held {
+            let mut left = held.rubs;
+            for i in &held.floors {
+                let own = floors[*i];
+                let bears = own.connection + own.friction * own.load;
+                if held.borne.is_none() && held.level > slid + LEVEL {
+                    floors[*i] = stands(&own, left);
+                    left = 0.0;
+                } else if held.borne.is_some() && bears > left {
+                    floors[*i] = Floor { connection: left, friction: 0.0, ..own };
+                    left = 0.0;
+                } else {
+                    left -= bears;
+                }
+            }
+        }
+        floors
     }
 
     /// What acts at a trial α on what moves between two levels [m].
@@ -162,7 +188,7 @@ impl Held {
 }
 
 /// A floor that stays on a course that rubs.
-pub(crate) fn stands(floor: &Floor, rubs: f64) -> Floor {
+fn stands(floor: &Floor, rubs: f64) -> Floor {
     Floor { pushing: -floor.load, thrust: 0.0, friction: 0.0, connection: rubs, ..*floor }
 }
 

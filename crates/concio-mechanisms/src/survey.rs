@@ -10,7 +10,7 @@ use crate::horizontal_arch::HorizontalArch;
 use crate::overturning::{Facade, Overturning};
 use crate::pushover::{Kinematics, Pushover};
 use crate::side_wall::{Overlaps, SideWall};
-use crate::supports::{Supports, Yielding, stands};
+use crate::supports::{Supports, Yielding};
 use crate::vertical_arch::VerticalArch;
 use crate::wall::{FloorOf, Side, Wall};
 
@@ -206,7 +206,7 @@ pub fn survey(wall: &Wall, overlaps: Overlaps) -> Survey {
     making.gable(&mut survey);
     let arches = making.told(arches, &survey);
     if arches.is_empty() {
-        let why = "nothing holds the wall above a bed joint (holds = true or connection at out_of_plane.floor, out_of_plane.anchor)";
+        let why = "nothing holds the wall above a bed joint (holds = true or connection at out_of_plane.floor, out_of_plane.anchor), or what does gives way first";
         survey.without.insert(without, (Kind::VerticalArch, why.into()));
     }
     survey.found.splice(at..at, arches);
@@ -240,7 +240,7 @@ struct Making<'w> {
     wall: &'w Wall,
     overlaps: Overlaps,
     supports: Supports<'w>,
-    /// Floors as corners and flaps have them: where the course of one slides, it stays.
+    /// Floors as corners, flaps and a leaf have them.
     floors: Vec<Floor>,
     /// Level of the highest floor that holds whatever pushes [m]; 0 without one.
     held: f64,
@@ -414,15 +414,7 @@ impl Making<'_> {
         };
         let lowest = self.levels(0.0).filter(|z| *z < top - LEVEL).find(slides).unwrap_or(f64::INFINITY);
         self.held = self.supports.rigid().filter(|z| *z <= lowest + LEVEL).fold(0.0, f64::max);
-        let slid: Vec<f64> = self.supports.rigid().filter(|z| *z > lowest + LEVEL).collect();
-        let forces = self.supports.at(0.0, [lowest, f64::INFINITY]).forces;
-        for floor in &mut self.floors {
-            let near = |z: f64| (z - floor.level).abs() < LEVEL;
-            let force = forces.iter().find(|(z, ..)| near(*z)).filter(|_| slid.iter().any(|z| near(*z)));
-            if let Some((_, rubs, _)) = force {
-                *floor = stands(floor, *rubs);
-            }
-        }
+        self.floors = self.supports.of_parts(lowest);
     }
 
     /// Levels of hinges from a height on, each with something above it.
@@ -560,8 +552,7 @@ impl Making<'_> {
             self.wall.masonry.pieces.iter().map(|p| crate::facade::Piece { weight: part * p.weight, ..*p }).collect();
         let masonry = Masonry { thickness, pieces };
         for hinge in self.levels(0.0) {
-            let floors = self.wall.floors.iter().map(|f| f.floor);
-            let on_it: Vec<Floor> = floors.filter(|f| f.depth < thickness - LEVEL).collect();
+            let on_it: Vec<Floor> = self.floors.iter().filter(|f| f.depth < thickness - LEVEL).copied().collect();
             let facade = Facade {
                 masonry: &masonry,
                 floors: &on_it,

@@ -24,7 +24,7 @@ use crate::program::Friction;
 
 /// Most rounds.
 const MOST: usize = 60;
-/// What w would take from λ if all N changed by themselves. With less, N̄ jumps; with four times as much, façades of 250 blocks do not settle.
+/// Twice what w would take from λ if all N changed by themselves. With less, N̄ jumps; with four times as much, façades of 250 blocks do not settle.
 const SLOWS: f64 = 0.05;
 /// Opening, slip and stretch that count as none, over the velocity of what is pushed.
 const STICKS: f64 = 1e-4;
@@ -33,7 +33,10 @@ pub(super) fn estimate(equations: &Equations, start: &Limit) -> NonAssociative {
     let (estimate, mechanism) = sequence(equations, start);
     let states = || {
         let [least, most] = [-1.0, 1.0].map(|sign| extreme(equations, &mechanism, sign));
-        Some([least?, most?].map(|found| equations.multiplier(found.multiplier)))
+        let states = [least?, most?].map(|found| equations.multiplier(found.multiplier));
+        // Else what is told apart as open, sliding or at rest is not yet.
+        let slack = OBEYS * estimate.multiplier.abs();
+        (states[0] - slack..=states[1] + slack).contains(&estimate.multiplier).then_some(states)
     };
     NonAssociative { states: if estimate.stop == Stop::Converged { states() } else { None }, ..estimate }
 }

@@ -374,3 +374,21 @@ fn a_course_that_slides_stays_with_its_floor() {
     agrees!(what, against, "", found.multiplier(), expected, 1e-12);
     assert!(found.notes.iter().any(|n| n.contains("stays, and its course slides at 12.60 kN")), "{:?}", found.notes);
 }
+
+/// What a floor holds of a corner, a flap or a leaf is no more than what the bed joints of its course bear: 0.6 × (15 + 6) kN below the top one.
+#[test]
+fn a_connection_holds_parts_by_no_more_than_its_course_bears() {
+    let side = "[[out_of_plane.side_wall]]\nx = 0\nthickness = 0.4\ncourse_height = 0.25\noverlap = 0.2\n";
+    let roof = |own: f64| floor(6.0, &format!("load = 1e3\nat = 0.1\nholds = true\nconnection = {own}"));
+    let leaves = "leaves = [0.2, 0.3]\nleaves_tied = false\n";
+    for (kind, before, after) in [(Kind::Flap, "", ""), (Kind::Corner, "", side), (Kind::Leaf, leaves, "")] {
+        let least = |own: f64| {
+            let survey = of(0.5, "", &format!("{before}{}{after}", roof(own)));
+            counted(&survey, kind).unwrap_or_else(|| panic!("{kind:?}: {:?}", survey.without)).multiplier()
+        };
+        let [weak, all, strong] = [1e3, 2.1e3, 1e6].map(least);
+        let what = format!("Mechanisms: a strong connection of a course that slides, {kind:?}");
+        agrees!(what, "a connection of μ N of its bed joints", "", strong, all, 1e-12);
+        assert!(weak < all, "{kind:?}: {weak} {all}");
+    }
+}

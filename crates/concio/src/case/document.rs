@@ -161,7 +161,10 @@ fn both_kinds(text: &str, line: &str) -> Option<String> {
     };
     let (name, is_list) = header(line)?;
     let other = text.lines().position(|other| header(other).is_some_and(|(n, list)| n == name && list != is_list))?;
-    Some(format!("line {} has it with other brackets: write `[[{name}]]` both times", other + 1))
+    Some(format!(
+        "line {} has it with other brackets: where there may be several, write `[[{name}]]` both times",
+        other + 1
+    ))
 }
 
 /// What to write instead of a line with quotes that word processors make, where they stand outside of a text.

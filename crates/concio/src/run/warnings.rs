@@ -441,7 +441,7 @@ fn swings_fast(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Opt
     (swings && period < RESOLVES * planar.step).then(|| {
         format!(
             "the wall swings with a period of about {} ms, of {:.1} steps: the vibration comes out {:.1} % too slow, and peaks near its own frequency \
-             are off by several times as much. A solver.step of {} ms leaves about 1 % of them",
+             are off by several times as much. With a solver.step of {} ms they are off by about 1 %",
             shown(rounded(1e3 * period, 3)),
             period / planar.step,
             100.0 * (TAU * planar.step / period).powi(2) / 12.0,
@@ -908,7 +908,7 @@ step = {step}
         };
         let sine = |f: f64| format!(r#"sine = {{ acceleration = "0.1 g", frequency = {f}, ramp = "0.5 s" }}"#);
         let what = told(&sine(90.0), 1e-3).expect("it swings fast");
-        assert!(what.contains("of 10.8 steps") && what.contains("A solver.step of 0.27 ms"), "{what}");
+        assert!(what.contains("of 10.8 steps") && what.contains("With a solver.step of 0.27 ms"), "{what}");
         assert_eq!(told(&sine(90.0), 5e-4), None);
         assert_eq!(told(&sine(10.0), 1e-3), None);
         let pulse = r#"pulse = { shape = "rectangular", acceleration = "0.2 g", duration = "20 ms" }"#;
