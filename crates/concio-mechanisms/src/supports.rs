@@ -40,6 +40,8 @@ struct Held {
 pub(crate) struct Supports<'w> {
     wall: &'w Wall,
     held: Vec<Held>,
+    /// Level [m] of ties by themselves, their force, and what the bed joints of their course bear by friction [N], where that is less.
+    slipping: Vec<(f64, [f64; 2])>,
 }
 
 /// What acts on the wall at a trial α.
@@ -53,6 +55,8 @@ pub(crate) struct Yielding {
     pub(crate) ties: Vec<Tie>,
     /// Level [m] of each floor that holds, its force [N], and whether its course stays.
     pub(crate) forces: Vec<(f64, f64, bool)>,
+    /// Of [`Supports`].
+    slipping: Vec<(f64, [f64; 2])>,
 }
 
 impl<'w> Supports<'w> {
@@ -60,8 +64,7 @@ impl<'w> Supports<'w> {
         let mut held: Vec<Held> = Vec::new();
         for own in wall.floors.iter().filter(|f| f.holds) {
             let level = own.floor.level;
-            let low = wall.levels.iter().copied().rfind(|z| *z < level - LEVEL).unwrap_or(0.0);
-            let high = wall.levels.iter().copied().find(|z| *z >= level - LEVEL).unwrap_or(wall.top.max(level));
+            let [low, high] = course(wall, level);
             if held.iter().any(|h| (h.course[0] - low).abs() < LEVEL) {
                 continue;
             }
@@ -74,14 +77,21 @@ impl<'w> Supports<'w> {
             let beside = wall.beside(level);
             let of = |f: &FloorOf| wall.borne(f).map(|borne| borne - wall.beside(f.floor.level));
             let borne = holding().map(of).sum::<Option<f64>>().map(|floors| floors + beside);
-            let load =
-                |from: f64| wall.floors.iter().filter(|f| f.floor.level > from).map(|f| f.floor.load).sum::<f64>();
-            let below = wall.masonry.above(low).weight + load(low + LEVEL);
-            let above = wall.masonry.above(high).weight + load(high + LEVEL);
-            let (rubs, weight) = (wall.friction * (below + above), wall.masonry.between(low, high).weight);
+            let (rubs, weight) = (rubs(wall, [low, high]), wall.masonry.between(low, high).weight);
             held.push(Held { level, course: [low, high], floors, ties, borne, rubs, weight });
         }
-        Supports { wall, held }
+        let held_tie = |i: usize| held.iter().any(|h| h.ties.contains(&i));
+        let mut slipping: Vec<(f64, [f64; 2])> = Vec::new();
+        for (_, tie) in wall.ties.iter().enumerate().filter(|(i, _)| !held_tie(*i)) {
+            let own = course(wall, tie.level);
+            let of_course = |other: &&Tie| course(wall, other.level) == own;
+            let force: f64 = wall.ties.iter().filter(of_course).map(|tie| tie.force).sum();
+            let bears = rubs(wall, own);
+            if force > bears && slipping.iter().all(|(z, _)| course(wall, *z) != own) {
+                slipping.push((tie.level, [force, bears]));
+            }
+        }
+        Supports { wall, held, slipping }
     }
 
     /// Levels [m] of floors that hold whatever pushes, as long as their courses do not slide.
@@ -122,7 +132,13 @@ impl<'w> Supports<'w> {
     pub(crate) fn at(&self, alpha: f64, between: [f64; 2]) -> Yielding {
         let wall = self.wall;
         let floors = wall.floors.iter().map(|f| f.floor).collect();
-        let mut found = Yielding { masonry: wall.masonry.clone(), floors, ties: Vec::new(), forces: Vec::new() };
+        let mut found = Yielding {
+            masonry: wall.masonry.clone(),
+            floors,
+            ties: Vec::new(),
+            forces: Vec::new(),
+            slipping: self.slipping.clone(),
+        };
         let mut gone = Vec::new();
         let inside = |h: &&Held| h.level > between[0] + LEVEL && h.level < between[1] - LEVEL;
         for held in self.held.iter().filter(inside) {
@@ -200,6 +216,29 @@ impl Yielding {
             false => format!("the floor at {z:.2} m gives way at {:.2} kN", 1e-3 * force),
             true => format!("the floor at {z:.2} m stays, and its course slides at {:.2} kN", 1e-3 * force),
         };
-        inside.map(of).collect()
+        let tied = self.slipping.iter().filter(|(z, _)| *z > levels[0] + LEVEL && *z < levels[1] - LEVEL);
+        let slips = |(z, [force, bears]): &(f64, [f64; 2])| {
+            format!(
+                "ties at {z:.2} m hold {:.2} kN, and the bed joints of their course bear {:.2} kN: α0 is too high where blocks slide from there",
+                1e-3 * force,
+                1e-3 * bears
+            )
+        };
+        inside.map(of).chain(tied.map(slips)).collect()
     }
+}
+
+/// Bottom and top of the course of a level [m].
+fn course(wall: &Wall, level: f64) -> [f64; 2] {
+    let low = wall.levels.iter().copied().rfind(|z| *z < level - LEVEL).unwrap_or(0.0);
+    let high = wall.levels.iter().copied().find(|z| *z >= level - LEVEL).unwrap_or(wall.top.max(level));
+    [low, high]
+}
+
+/// Friction of the bed joints below and above a course [N].
+fn rubs(wall: &Wall, [low, high]: [f64; 2]) -> f64 {
+    let load = |from: f64| wall.floors.iter().filter(|f| f.floor.level > from).map(|f| f.floor.load).sum::<f64>();
+    let below = wall.masonry.above(low).weight + load(low + LEVEL);
+    let above = wall.masonry.above(high).weight + load(high + LEVEL);
+    wall.friction * (below + above)
 }

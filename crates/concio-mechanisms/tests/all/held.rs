@@ -392,3 +392,21 @@ fn a_connection_holds_parts_by_no_more_than_its_course_bears() {
         assert!(weak < all, "{kind:?}: {weak} {all}");
     }
 }
+
+/// A tie counts in full, as if spread. Where the bed joints of its course bear less, that is said: below the top course 0.6 × 18 kN, half way up 0.6 × 450 kN.
+#[test]
+fn ties_from_which_blocks_slide_are_told() {
+    let told = |level: f64, force: f64| {
+        let survey = of(0.6, "", &tie(level, &format!("yield_force = {force}")));
+        let notes = &at_hinge(&survey, Kind::Overturning, 0.0).notes;
+        notes.iter().find(|note| note.contains("bed joints of their course")).cloned()
+    };
+    let what = told(6.0, 12e3).expect("a note");
+    assert!(
+        what.starts_with("ties at 6.00 m hold 12.00 kN, and the bed joints of their course bear 10.80 kN"),
+        "{what}"
+    );
+    assert_eq!(told(6.0, 10e3), None);
+    assert_eq!(told(3.0, 260e3), None);
+    assert!(told(3.0, 280e3).is_some());
+}
