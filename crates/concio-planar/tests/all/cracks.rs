@@ -792,7 +792,7 @@ fn friction_at_rest_is_overcome_within_a_step() {
                 for (length, end, base, expected) in pushes {
                     let way = slid(springs, friction, base, (step, end));
                     let subject = format!(
-                        "Sliding: block pushed to and fro by pulses of {length} s, μ_s {static_}, μ_d {dynamic}, {joint}; steps of {step} s"
+                        "Sliding: block pushed to and fro in steps of {step} s; pulses of {length} s, μ_s {static_}, μ_d {dynamic}, {joint}"
                     );
                     let within = if length < 0.03 { short } else { within };
                     agrees!(subject, "spring in line with friction in steps of 1 µs", "m", way, expected, within);

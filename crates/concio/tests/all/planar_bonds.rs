@@ -155,7 +155,7 @@ step = "5 ms"
                 1.3 * b / h
             ));
             agrees!(
-                format!("Springs: largest base shear of a block that topples, {b} by {h} m, {what}"),
+                format!("Springs: largest base shear of a block that topples; {b} by {h} m, {what}"),
                 "(x − c/3)/y, c = √(2 W/(k t sin θ)), at the θ where it is largest",
                 "of its weight",
                 outcome.totals.base_shear_peak / (20e3 * 0.3 * b * h),
