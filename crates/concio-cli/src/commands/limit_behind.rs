@@ -89,7 +89,7 @@ pub(super) fn add(
         let at = significant(f.level, 4);
         if own.clamps {
             warnings.push(format!(
-                "clamps of the floor at {at} m is left out: its load stays in its place, and λ is too low"
+                "the clamping of the floor at {at} m is left out: its load stays in its place, and λ is too low"
             ));
         }
         if holds {
@@ -227,6 +227,12 @@ impl Closed {
             off if off.abs() <= CERTIFIED => format!("equal to {name}"),
             _ if of < NOTHING => format!("{name} is 0"),
             off if off > 0.0 => format!("high, {} above {name}: the blocks find a lower one", percent(off)),
+            off if self.kind == Kind::GableFlaps.name() => {
+                format!(
+                    "{} below {name}, which holds the gable as one body and knows no flaps: it counts",
+                    percent(-off)
+                )
+            }
             off => format!("low, {} below {name}", percent(-off)),
         };
         let smooth = smooth.map(|of| format!("; {}", than(of, "λ of smooth heads"))).unwrap_or_default();

@@ -180,6 +180,11 @@ fn a_gable_on_the_wall() {
         expected,
         1e-6
     );
+    // Its flaps bear less, and λ knows none of them.
+    let done = desk.concio("limit wall.toml --out-of-plane").assert().success();
+    let text = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    let flaps = text.lines().find(|line| line.contains("flaps of the gable")).unwrap_or_else(|| panic!("{text}"));
+    assert!(flaps.contains("holds the gable as one body and knows no flaps: it counts"), "{flaps}");
 }
 
 /// (OP2) in the table sets hinges back here too: the wall of the closed form, 0.0773333 and with a triangle 0.0753333.
