@@ -114,55 +114,61 @@ mod tests {
     use super::*;
     use crate::space::{Assembly, Facade, Problem, analyse};
 
-    /// Forces of the least and the most λ, and half of both: in equilibrium, none beyond friction, none that opens, friction against slip.
+    /// Forces of the least λ, of the most, and of what another program has for the façades L3 and L5: in equilibrium, none beyond friction, none
+    /// where it opens, friction against slip.
     #[test]
     fn every_multiplier_between_has_forces_that_its_mechanism_leaves() {
-        let facade = Facade {
-            thickness: 0.2,
-            course: 0.2,
-            courses: 6,
-            length: 1.6,
-            sides: [true; 2],
-            depth: 1.6,
-            specific_weight: 20e3,
-        };
-        let blocks = facade.blocks().expect("a façade");
-        let wall = Problem::new(Assembly::of_boxes(&blocks, 0.6).expect("a wall"), [-1.0, 0.0, 0.0]);
-        let (start, equations) = (analyse(&wall).expect("a limit"), Equations::of(&wall));
-        let (estimate, v) = sequence(&equations, &start);
-        assert_eq!(estimate.stop, Stop::Converged);
-        let ends = [-1.0, 1.0].map(|sign| extreme(&equations, &v, sign).expect("forces"));
-        let [least, most] = [&ends[0], &ends[1]].map(|end| end.multiplier);
-        assert!(most > 1.02 * least, "{least} to {most}");
-        let lifted = |p: &&Point| power(&p.normal, &v) > STICKS;
-        assert!(equations.points.iter().filter(lifted).count() > 50);
-        let moves = |p: &Point| [&p.normal, &p.tangents[0], &p.tangents[1]].map(|c| power(c, &v));
-        let whole = |found: &Solution| -> Vec<Vector> {
-            let mut bear = found.forces.iter();
-            let force = |point: &Point| {
-                let [opening, a, b] = moves(point);
-                let slip = a.hypot(b);
-                match (opening > STICKS, slip > STICKS) {
-                    (true, _) => [0.0; 3],
-                    (_, false) => *bear.next().expect("a force"),
-                    _ => {
-                        let n = bear.next().expect("a force")[0];
-                        [n, -point.friction * n * a / slip, -point.friction * n * b / slip]
-                    }
-                }
+        // The second settles to what counts as none.
+        for (length, theirs, none) in [(2.0, 0.346, 1e-6), (4.0, 0.259, STICKS)] {
+            let facade = Facade {
+                thickness: 0.2,
+                course: 0.2,
+                courses: 10,
+                length,
+                sides: [true; 2],
+                depth: 2.4,
+                specific_weight: 20e3,
             };
-            equations.points.iter().map(force).collect()
-        };
-        let ends = ends.each_ref().map(whole);
-        for part in [0.0, 0.5, 1.0] {
-            let mixed = |(a, b): (&Vector, &Vector)| [0, 1, 2].map(|k| a[k] + part * (b[k] - a[k]));
-            let forces: Vec<Vector> = ends[0].iter().zip(&ends[1]).map(mixed).collect();
-            let residual = equations.residual(&forces, &[], least + part * (most - least));
-            let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-            assert!(most(&mut residual.iter().map(|r| r.abs())) < 1e-6, "out of balance");
-            assert!(beyond(&equations, &forces) < 1e-6, "beyond friction");
-            let overlap = most(&mut equations.points.iter().map(|p| -moves(p)[0]));
-            assert!(overlap < 1e-6, "blocks overlap by {overlap:e}");
+            let blocks = facade.blocks().expect("a façade");
+            let wall = Problem::new(Assembly::of_boxes(&blocks, 0.6).expect("a wall"), [-1.0, 0.0, 0.0]);
+            let (start, equations) = (analyse(&wall).expect("a limit"), Equations::of(&wall));
+            let (estimate, v) = sequence(&equations, &start);
+            assert_eq!(estimate.stop, Stop::Converged);
+            let ends = [-1.0, 1.0].map(|sign| extreme(&equations, &v, sign).expect("forces"));
+            let [least, most] = [&ends[0], &ends[1]].map(|end| end.multiplier);
+            assert!(most > 1.02 * least, "{least} to {most}");
+            let lifted = |p: &&Point| power(&p.normal, &v) > STICKS;
+            assert!(equations.points.iter().filter(lifted).count() > 50);
+            let moves = |p: &Point| [&p.normal, &p.tangents[0], &p.tangents[1]].map(|c| power(c, &v));
+            let whole = |found: &Solution| -> Vec<Vector> {
+                let mut bear = found.forces.iter();
+                let force = |point: &Point| {
+                    let [opening, a, b] = moves(point);
+                    let slip = a.hypot(b);
+                    match (opening > STICKS, slip > STICKS) {
+                        (true, _) => [0.0; 3],
+                        (_, false) => *bear.next().expect("a force"),
+                        _ => {
+                            let n = bear.next().expect("a force")[0];
+                            [n, -point.friction * n * a / slip, -point.friction * n * b / slip]
+                        }
+                    }
+                };
+                equations.points.iter().map(force).collect()
+            };
+            let ends = ends.each_ref().map(whole);
+            let between = (theirs / equations.multiplier(1.0) - least) / (most - least);
+            assert!((0.0..=1.0).contains(&between), "{theirs}");
+            for part in [0.0, between, 1.0] {
+                let mixed = |(a, b): (&Vector, &Vector)| [0, 1, 2].map(|k| a[k] + part * (b[k] - a[k]));
+                let forces: Vec<Vector> = ends[0].iter().zip(&ends[1]).map(mixed).collect();
+                let residual = equations.residual(&forces, &[], least + part * (most - least));
+                let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+                assert!(most(&mut residual.iter().map(|r| r.abs())) < 1e-6, "out of balance");
+                assert!(beyond(&equations, &forces) < 1e-6, "beyond friction");
+                let overlap = most(&mut equations.points.iter().map(|p| -moves(p)[0]));
+                assert!(overlap < none, "{length} m: blocks overlap by {overlap:e}");
+            }
         }
     }
 }
