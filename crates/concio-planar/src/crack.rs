@@ -36,6 +36,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::fibres::{Fibres, Sheared};
 use crate::joint::{Bond, Law, Normal, Part, Point};
 use crate::zone::{self, Local, Moments, Zone};
 
@@ -351,8 +352,10 @@ pub struct Crack {
     crushed: Vec<f64>,
     /// How much of it was in each zone when its points were placed, and its first moment.
     placed: [[f64; 2]; ZONES],
-    /// Energy in its springs beyond that of its points [J].
+    /// Energy in its springs across beyond that of its points [J].
     hidden: f64,
+    /// Its springs along, once nothing of its bond is left.
+    fibres: Fibres,
     /// When it first cracked [s]; infinite while it is intact.
     pub cracked: f64,
     /// When nothing was left of it [s].
@@ -467,6 +470,7 @@ impl Crack {
             crushed: vec![0.0; crushed_nodes(law)],
             placed: [[0.0; 2]; ZONES],
             hidden: 0.0,
+            fibres: Fibres::new(law.in_line()),
             cracked: since,
             broken: since,
             reach: 0.0,
@@ -521,7 +525,7 @@ impl Crack {
 
     /// Energy in its springs beyond that of its points [J].
     pub(crate) fn hidden(&self) -> f64 {
-        self.hidden
+        self.hidden + self.fibres.uneven
     }
 
     /// Where its sides face each other no more: all that has no bond is open, and what springs keep beyond that of the points is lost, which is returned [J].
@@ -530,7 +534,7 @@ impl Crack {
         if !law.is_compliant() || !pressed {
             return 0.0;
         }
-        let lost = self.hidden;
+        let lost = self.hidden + self.fibres.let_go();
         let apart = [[APART, 0.0]; 2];
         let zones = self.zones(law, &apart);
         self.place(law, &apart, &zones, true);
@@ -640,6 +644,7 @@ impl Crack {
         self.nodes.len() == if law.bond.is_some() { NODES } else { 0 }
             && (law.bond.is_some() || self.is_gone())
             && self.crushed.len() == crushed_nodes(law)
+            && self.fibres.fit(law.in_line())
             && (1..=POINTS).contains(&self.spots.len())
             && self.spots.iter().all(|spot| spot.point < POINTS && spot.at.is_finite() && spot.share > 0.0)
             && self.held[0] < self.held[1]
@@ -922,7 +927,7 @@ impl Crack {
         let shear = law.shear.stiffness;
         let breaks = law.breaking_stiffness();
         let [_, mut energy] = self.friction_borne(law, points);
-        energy += self.hidden;
+        energy += self.hidden();
         for spot in &self.spots {
             let point = &points[spot.point];
             energy += match spot.part {
@@ -1050,12 +1055,13 @@ impl Crack {
         if !new && intact {
             return Worn::default();
         }
-        if !self.is_gone() && self.nodes.iter().all(|node| node.damage() == 1.0) {
+        let breaks = !self.is_gone() && self.nodes.iter().all(|node| node.damage() == 1.0);
+        if breaks {
             self.broken = time;
         }
         let zones = self.zones(law, &line);
         if !new && self.stand(&zones, still) {
-            return Worn::default();
+            return self.rub(law, points, (&line, still, parting));
         }
         taken += crushed - if told > 0.0 { law.crushing * told } else { 0.0 };
         let before = self.stored(law, points);
@@ -1064,6 +1070,9 @@ impl Crack {
         // Points go on with the speed of the nearest one.
         let mut speeds = [[f64::NAN; 2]; DRY];
         dry().zip(&mut speeds).for_each(|(spot, speed)| *speed = [spot.at, points[spot.point].speed]);
+        if breaks {
+            self.begin_fibres(law, points);
+        }
         self.place(law, &line, &zones, still);
         for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
             let [gap, slide] = between(&line, spot.at);
@@ -1075,15 +1084,19 @@ impl Crack {
             points[spot.point] = Point { gap, slide, speed, crushed: spot.crushed, ..points[spot.point] };
         }
         self.set(points);
-        self.share_friction(law, points, (still, parting), [borne + friction[0], stored + friction[1]]);
+        let rubbed = if self.fibres.are_there() && self.is_gone() {
+            // Springs along are theirs.
+            self.rub_from(law, points, (&line, still, parting), stored)
+        } else {
+            self.share_friction(law, points, (still, parting), [borne + friction[0], stored + friction[1]]);
+            stored + friction[1] - self.friction_borne(law, points)[1]
+        };
         // What the next step takes them to bear before it knows better.
         for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
             let point = &mut points[spot.point];
             point.force = [spot.share * law.normal_stiffness() * (-point.gap - point.crushed).max(0.0), point.bearing];
         }
         let lost = before - self.stored(law, points);
-        let [_, keeps] = self.friction_borne(law, points);
-        let rubbed = stored + friction[1] - keeps;
         Worn { bond: taken, friction: rubbed, beyond: lost - taken - rubbed, breaks_at }
     }
 
@@ -1100,6 +1113,82 @@ impl Crack {
         [near - slope * from.at, near + slope * (1.0 - from.at)]
     }
 
+    /// Takes note of what friction took of one of its points in the step [J].
+    pub(crate) fn rubs(&mut self, taken: f64) {
+        self.fibres.rubbed += taken;
+    }
+
+    /// Its springs along begin as its points bear.
+    fn begin_fibres(&mut self, law: &Law, points: &[Point]) {
+        let along = law.breaking_stiffness();
+        let Crack { fibres, spots, .. } = self;
+        let dry = || spots.iter().filter(|spot| spot.part == Part::Dry);
+        fibres.begin(|x| {
+            let nearest = dry().min_by(|a, b| (a.at - x).abs().total_cmp(&(b.at - x).abs()));
+            nearest.map_or(0.0, |spot| {
+                let point = &points[spot.point];
+                point.slide + point.bearing / (spot.share * along)
+            })
+        });
+    }
+
+    /// Lets what its friction does not hold slide where its points stand as they did; what that takes.
+    fn rub(&mut self, law: &Law, points: &mut [Point], how: (&[[f64; 2]; 2], bool, [f64; 2])) -> Worn {
+        if !(self.fibres.are_there() && self.is_gone()) {
+            return Worn::default();
+        }
+        let [_, stored] = self.friction_borne(law, points);
+        Worn { friction: self.rub_from(law, points, how, stored), ..Worn::default() }
+    }
+
+    /// Takes the fibres to where its ends are as far apart as `line` says, and has its points bear what they do; what friction takes of `stored` of the points and
+    /// what fibres stored beyond [J].
+    fn rub_from(
+        &mut self,
+        law: &Law,
+        points: &mut [Point],
+        (line, still, parting): (&[[f64; 2]; 2], bool, [f64; 2]),
+        stored: f64,
+    ) -> f64 {
+        let (along, before) = (law.breaking_stiffness(), stored + self.fibres.uneven);
+        let mut mus = [[f64::NAN; 2]; DRY];
+        let dry = self.spots.iter().filter(|spot| spot.part == Part::Dry);
+        dry.zip(&mut mus).for_each(|(spot, mu)| {
+            *mu = [spot.at, law.friction.map_or(0.0, |friction| friction.of(points[spot.point].speed, still))];
+        });
+        let mu = |x: f64| {
+            let near = |mu: &&[f64; 2]| (mu[0] - x).abs();
+            let there = mus.iter().filter(|mu| !mu[0].is_nan());
+            there.min_by(|a, b| near(a).total_cmp(&near(b))).map_or(0.0, |mu| mu[1])
+        };
+        let (stiffness, damping) = (law.normal_stiffness(), law.normal_damping());
+        let last = self.crushed.len().saturating_sub(1);
+        let Crack { fibres, crushed, was, .. } = self;
+        let Sheared { mut whole, mut energy, .. } = fibres.follow(along, |x| {
+            let [mut gap, slide] = between(line, x);
+            if !still {
+                gap = 0.5 * (gap + between(was, x)[0]);
+            }
+            let deep = crushed.get((x * last as f64).round() as usize).copied().unwrap_or(0.0);
+            let sprung = stiffness * (-gap - deep).max(0.0);
+            let damped = damping * (parting[0] + x * (parting[1] - parting[0]));
+            let pressed = if parting == [0.0; 2] || sprung == 0.0 { sprung } else { (sprung - damped).max(0.0) };
+            [slide, mu(x) * pressed.min(law.crushing)]
+        });
+        // Where points slid that were pressed less in the step than at its end.
+        let rubbed = std::mem::take(&mut fibres.rubbed);
+        let most = (before + if still { rubbed } else { 0.0 }).max(0.0);
+        if energy > most {
+            let part = (most / energy).sqrt();
+            fibres.weaken(part, |x| between(line, x)[1]);
+            (whole, energy) = (part * whole, most);
+        }
+        self.spread(law, points, (still, parting), whole);
+        let [_, keeps] = self.friction_borne(law, points);
+        self.fibres.uneven = energy - keeps;
+        before - energy
+    }
+
     /// What has cracked bears along the joint, and what its springs along store [N, J].
     fn friction_borne(&self, law: &Law, points: &[Point]) -> [f64; 2] {
         let along = law.breaking_stiffness();
@@ -1108,6 +1197,29 @@ impl Crack {
             let bearing = points[spot.point].bearing;
             [whole + bearing, energy + 0.5 * bearing * bearing / (spot.share * along)]
         })
+    }
+
+    /// What friction lets a point bear [N].
+    fn limit(&self, law: &Law, (spot, point): (&Spot, &Point), (still, parting): (bool, [f64; 2])) -> f64 {
+        let sprung = spot.share * law.normal_stiffness() * (-point.gap - point.crushed).max(0.0);
+        // What friction bore against the dashpots' pressure too would be lost at each step, however short.
+        let damped = spot.share * law.normal_damping() * (parting[0] + spot.at * (parting[1] - parting[0]));
+        let pressed = if parting == [0.0; 2] || sprung == 0.0 {
+            sprung
+        } else {
+            (sprung - damped).clamp(0.0, (spot.share + spot.edge) * law.crushing)
+        };
+        spot.rubbing * law.friction.map_or(0.0, |friction| friction.of(point.speed, still)) * pressed
+    }
+
+    /// Has its points bear `whole` along the joint [N], each the same part of what friction lets it: none slides before the joint does.
+    fn spread(&self, law: &Law, points: &mut [Point], how: (bool, [f64; 2]), whole: f64) {
+        let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
+        let all: f64 = dry().map(|spot| self.limit(law, (spot, &points[spot.point]), how)).sum();
+        let part = if all > 0.0 { (whole / all).clamp(-1.0, 1.0) } else { 0.0 };
+        for spot in dry() {
+            points[spot.point].bearing = part * self.limit(law, (spot, &points[spot.point]), how);
+        }
     }
 
     /// Has what has cracked bear `whole` along the joint [N], or what stores no more than `energy` [J]: all its points stretched alike, those that
@@ -1119,8 +1231,7 @@ impl Crack {
         (still, parting): (bool, [f64; 2]),
         [whole, energy]: [f64; 2],
     ) {
-        let (stiffness, along) = (law.normal_stiffness(), law.breaking_stiffness());
-        let mu = |point: &Point| law.friction.map_or(0.0, |friction| friction.of(point.speed, still));
+        let along = law.breaking_stiffness();
         let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry && along > 0.0);
         let (mut rest, mut held, mut slides) =
             (whole, dry().map(|spot| spot.share * along).sum::<f64>(), [false; POINTS]);
@@ -1132,15 +1243,7 @@ impl Crack {
                     continue;
                 }
                 let point = &mut points[spot.point];
-                let sprung = spot.share * stiffness * (-point.gap - point.crushed).max(0.0);
-                // What friction bore against the dashpots' pressure too would be lost at each step, however short.
-                let damped = spot.share * law.normal_damping() * (parting[0] + spot.at * (parting[1] - parting[0]));
-                let pressed = if parting == [0.0; 2] || sprung == 0.0 {
-                    sprung
-                } else {
-                    (sprung - damped).clamp(0.0, (spot.share + spot.edge) * law.crushing)
-                };
-                let most = spot.rubbing * mu(point) * pressed;
+                let most = self.limit(law, (spot, point), (still, parting));
                 point.bearing = stretch * spot.share * along;
                 if point.bearing.abs() > most {
                     point.bearing = most.copysign(stretch);

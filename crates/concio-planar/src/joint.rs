@@ -375,7 +375,7 @@ impl Law {
     }
 
     /// Whether the shear spring is in line with friction.
-    fn in_line(&self) -> bool {
+    pub(crate) fn in_line(&self) -> bool {
         self.shear.series && self.shear.stiffness > 0.0
     }
 }

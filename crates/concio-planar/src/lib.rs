@@ -8,6 +8,7 @@ pub mod blocks;
 pub mod body;
 pub mod contact;
 pub mod crack;
+mod fibres;
 mod interior;
 pub mod joint;
 pub mod motion;

@@ -996,6 +996,9 @@ impl Motion {
                 self.breaks_at.get_or_insert(1.0);
             }
             let works = law.end(point, owner.share, h, &owner.start, after, contact);
+            if let Some(crack) = pair.crack.as_mut() {
+                crack.rubs(works.friction);
+            }
             if waits {
                 point.speed = 0.0;
             }

@@ -1,0 +1,90 @@
+//! Friction along a joint on springs, place by place: fibres that stick, slide or hang free.
+//!
+//! The contact points of a zone say what it bears across. Along, what opens lets go what it bore, what closes begins with nothing, and where pressure falls to 0
+//! some of a joint slides under any shear. Points that move with the zones cannot tell which of it that was; fibres that stay where they are can.
+
+use serde::{Deserialize, Serialize};
+
+/// Fibres of a joint, evenly from one end to the other.
+pub(crate) const FIBRES: usize = 65;
+
+/// The springs along what has no bond, in line with friction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Fibres {
+    /// Slide at which each bears nothing [m]; none of a joint that is rigid along.
+    anchors: Vec<f64>,
+    /// Energy in them beyond that of the points [J].
+    pub uneven: f64,
+    /// What friction took of the points in the step [J].
+    pub rubbed: f64,
+}
+
+/// What they bear along [N] and store [J], and whether one slid that was pressed.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Sheared {
+    pub whole: f64,
+    pub energy: f64,
+    pub slides: bool,
+}
+
+impl Fibres {
+    /// Of a joint that bears nothing yet.
+    pub fn new(there: bool) -> Self {
+        Fibres { anchors: vec![0.0; if there { FIBRES } else { 0 }], uneven: 0.0, rubbed: 0.0 }
+    }
+
+    pub fn are_there(&self) -> bool {
+        !self.anchors.is_empty()
+    }
+
+    /// Whether there are as many as in another.
+    pub fn fit(&self, there: bool) -> bool {
+        self.anchors.len() == if there { FIBRES } else { 0 }
+    }
+
+    /// They bear nothing where they are; returns what they stored beyond the points [J].
+    pub fn let_go(&mut self) -> f64 {
+        self.anchors.fill(0.0);
+        std::mem::take(&mut self.uneven)
+    }
+
+    /// Begins with the slide at which each bears nothing, by its place 0 … 1.
+    pub fn begin(&mut self, anchor: impl Fn(f64) -> f64) {
+        self.uneven = 0.0;
+        for (n, own) in self.anchors.iter_mut().enumerate() {
+            *own = anchor(place(n));
+        }
+    }
+
+    /// Takes them along to where the joint slid to, with springs of `stiffness` over all of it [N/m]: `at` says of a place 0 … 1 how far that is [m] and what friction
+    /// bears there at most, over all of the joint [N]. What would bear more slides.
+    pub fn follow(&mut self, stiffness: f64, at: impl Fn(f64) -> [f64; 2]) -> Sheared {
+        let mut sheared = Sheared::default();
+        for (n, anchor) in self.anchors.iter_mut().enumerate() {
+            let [slide, most] = at(place(n));
+            let free = stiffness * (*anchor - slide);
+            let borne = free.clamp(-most, most);
+            if borne != free {
+                *anchor = slide + borne / stiffness;
+                sheared.slides = true;
+            }
+            let weight = if n == 0 || n == FIBRES - 1 { 0.5 } else { 1.0 } / (FIBRES - 1) as f64;
+            sheared.whole += weight * borne;
+            sheared.energy += weight * 0.5 * borne * borne / stiffness;
+        }
+        sheared
+    }
+
+    /// Lets all of them bear only a `part` of what they do where the joint slid to `at` [m].
+    pub fn weaken(&mut self, part: f64, at: impl Fn(f64) -> f64) {
+        for (n, anchor) in self.anchors.iter_mut().enumerate() {
+            let slide = at(place(n));
+            *anchor = slide + part * (*anchor - slide);
+        }
+    }
+}
+
+/// Place of a fibre, 0 … 1.
+fn place(n: usize) -> f64 {
+    n as f64 / (FIBRES - 1) as f64
+}
