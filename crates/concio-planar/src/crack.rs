@@ -1141,6 +1141,23 @@ impl Crack {
         Worn { friction: self.rub_from(law, points, how, stored), ..Worn::default() }
     }
 
+    /// Friction at rest is overcome where all that is pressed slides, and comes back where all of it rests: a joint slides as one.
+    fn start_and_stop(&mut self, points: &mut [Point]) {
+        let Crack { fibres, spots, .. } = self;
+        let dry = || spots.iter().filter(|spot| spot.part == Part::Dry).map(|spot| spot.point);
+        let speeds = || dry().map(|k| &points[k]).filter(|p| p.gap + p.crushed < 0.0).map(|p| p.speed);
+        let fastest = speeds().fold(0.0, f64::max);
+        fibres.slide &= fastest > 0.0;
+        fibres.slide |= fastest > 0.0 && speeds().all(|speed| speed > 0.0);
+        for k in dry() {
+            points[k].speed = match fibres.slide {
+                true if points[k].speed == 0.0 => fastest,
+                true => points[k].speed,
+                false => 0.0,
+            };
+        }
+    }
+
     /// Takes the fibres to where its ends are as far apart as `line` says, and has its points bear what they do; what friction takes of `stored` of the points and
     /// what fibres stored beyond [J].
     fn rub_from(
@@ -1151,9 +1168,10 @@ impl Crack {
         stored: f64,
     ) -> f64 {
         let (along, before) = (law.breaking_stiffness(), stored + self.fibres.uneven);
+        self.start_and_stop(points);
+        let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
         let mut mus = [[f64::NAN; 2]; DRY];
-        let dry = self.spots.iter().filter(|spot| spot.part == Part::Dry);
-        dry.zip(&mut mus).for_each(|(spot, mu)| {
+        dry().zip(&mut mus).for_each(|(spot, mu)| {
             *mu = [spot.at, law.friction.map_or(0.0, |friction| friction.of(points[spot.point].speed, still))];
         });
         let mu = |x: f64| {

@@ -17,6 +17,8 @@ pub(crate) struct Fibres {
     pub uneven: f64,
     /// What friction took of the points in the step [J].
     pub rubbed: f64,
+    /// Whether the joint slides.
+    pub slide: bool,
 }
 
 /// What they bear along [N] and store [J], and whether one slid that was pressed.
@@ -30,7 +32,7 @@ pub(crate) struct Sheared {
 impl Fibres {
     /// Of a joint that bears nothing yet.
     pub fn new(there: bool) -> Self {
-        Fibres { anchors: vec![0.0; if there { FIBRES } else { 0 }], uneven: 0.0, rubbed: 0.0 }
+        Fibres { anchors: vec![0.0; if there { FIBRES } else { 0 }], uneven: 0.0, rubbed: 0.0, slide: false }
     }
 
     pub fn are_there(&self) -> bool {
