@@ -44,8 +44,8 @@ use crate::zone::{self, Local, Moments, Zone};
 const NODES: usize = 129;
 /// Nodes of a joint without bond at which it is known what is crushed: what rocks back over that leans on a narrow edge.
 const CRUSHED_NODES: usize = 513;
-/// Points of what has cracked: two for each zone.
-pub(crate) const DRY: usize = 2 * ZONES;
+/// Points of what has cracked: two for each zone, and two more of what is open of a joint that can be crushed.
+pub(crate) const DRY: usize = 2 * ZONES + 2;
 /// Points of what is left of the bond.
 pub(crate) const HELD: usize = 2;
 /// Points of a bonded joint, the last for the spring that stays beside friction.
@@ -764,11 +764,12 @@ impl Crack {
             // A point in a corner that is near its strength would hold back all it stands for.
             let corners = zone.between.iter().all(|at| -gap(*at) < WELL_BELOW * law.crushing / stiffness);
             let points = match (corners, alone) {
-                (true, true) => zone.three(ends),
+                (true, true) => zone::padded(zone.three(ends)),
                 // Without inertia nothing is gained: what follows a step puts it right.
-                _ if kind == OPEN && !still => zone.ends(),
-                (true, false) => zone.two(Some(ends)),
-                (false, _) => zone.two(None),
+                _ if kind == OPEN && !still && law.crushing.is_finite() => zone.closing(&gap),
+                _ if kind == OPEN && !still => zone::padded(zone.ends()),
+                (true, false) => zone::padded(zone.two(Some(ends))),
+                (false, _) => zone::padded(zone.two(None)),
             };
             let points = || points.into_iter().filter(|[_, share]| *share > NOTHING);
             // A line through an uneven zone may leave what such a zone has: it is turned as far as it has to be.

@@ -438,7 +438,7 @@ pub struct Motion {
     softens: Vec<Softens>,
     /// Whether what they bear was not found.
     astray: bool,
-    /// Until when what bonds took of the motion counts [s].
+    /// Until when it counts how fast springs ring [s].
     rings_until: f64,
     /// Without inertia: what the step would bear had nothing cracked, where a bond broke at once in it.
     uncracked: Option<([f64; 2], f64)>,
@@ -739,7 +739,7 @@ impl Motion {
         let stale = self.astray;
         let effort = if stale { self.solve_as_it_was(h) } else { effort };
         let enough = effort.residual <= self.setting.part(h) * self.setting.enough();
-        let rings = halved < SOON && self.rings();
+        let rings = halved < SOON && self.rings(h);
         let in_parts = rings || halved < HALVINGS && (!enough || self.jolts(h));
         if in_parts || halved < CROSSINGS && !self.follows_crushing(h) {
             return false;

@@ -33,6 +33,9 @@ const ROUNDING: f64 = 1e-9;
 /// The two places of Gauss's rule on the way from 0 to 1, ½ ∓ 1/√12.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
+/// Places of the points of what closes, over its length.
+const CLOSING: [f64; 4] = [0.0, 0.02, 0.15, 1.0];
+
 /// What a zone is like at some place: what acts, what has cracked, what rubs, and its gap.
 pub(crate) type Local = [f64; 4];
 
@@ -40,6 +43,11 @@ pub(crate) type Local = [f64; 4];
 #[inline]
 pub(crate) fn between<const N: usize>(from: &[f64; N], to: &[f64; N], part: f64) -> [f64; N] {
     std::array::from_fn(|k| from[k] + part * (to[k] - from[k]))
+}
+
+/// Three points and one of nothing.
+pub(crate) fn padded([a, b, c]: [[f64; 2]; 3]) -> [[f64; 2]; 4] {
+    [a, b, c, [c[0], 0.0]]
 }
 
 impl Zone {
@@ -110,6 +118,27 @@ impl Zone {
         [[from, all - last], [to, last], [from, 0.0]]
     }
 
+    /// Points at its ends and in between, the closer to each other the nearer to the end where its `gap` is smaller: what closes of it in a step is as narrow then as
+    /// what a joint closes. They bear no less than the zone, as points at its ends do, and of what those lose as they are placed anew hardly anything.
+    pub fn closing(&self, gap: &impl Fn(f64) -> f64) -> [[f64; 2]; 4] {
+        let [[from, near], [to, far], _] = self.ends();
+        let first = gap(from) <= gap(to);
+        let places = CLOSING.map(|part| if first { from + part * (to - from) } else { to - part * (to - from) });
+        // Of the straight line that acts so much at its ends: none where that is below 0 at one of them, as of two parts.
+        let [start, end] = [2.0 * near - far, 2.0 * far - near].map(|acts| 2.0 * acts / (to - from));
+        if start < 0.0 || end < 0.0 {
+            return padded([[from, near], [to, far], [from, 0.0]]);
+        }
+        let acts = |at: f64| start + (at - from) / (to - from) * (end - start);
+        let mut points = places.map(|at| [at, 0.0]);
+        for k in 1..places.len() {
+            let [a, b] = [places[k - 1], places[k]];
+            points[k - 1][1] += (b - a).abs() / 6.0 * (2.0 * acts(a) + acts(b));
+            points[k][1] += (b - a).abs() / 6.0 * (acts(a) + 2.0 * acts(b));
+        }
+        points
+    }
+
     /// Three points with its moments, where it is all there is between these ends: at either end, wherever blocks come to touch next, and in the middle. Two where one of them would pull.
     pub fn three(&self, ends: [f64; 2]) -> [[f64; 2]; 3] {
         let [from, to] = ends;
@@ -141,6 +170,19 @@ mod tests {
             assert!(close(&zone.two(Some([0.0, 1.0]))) && close(&zone.three(places)));
             let gap = zone.line(zone.gap);
             assert!(places.iter().zip([-0.3, 0.7]).all(|(at, expected)| (gap(*at) - expected).abs() < 1e-12));
+        }
+        // What closes bears no less than its zone, however far it does.
+        let mut opened = Zone::default();
+        opened.add([0.2, 0.8].map(|at| (at, [1.0 - 0.5 * at, 1.0, 1.0, at - 0.2])));
+        for places in [opened.ends().to_vec(), opened.closing(&|at| at).to_vec()] {
+            let stored = |way: f64| places.iter().map(|[at, acts]| acts * (way - at).max(0.0).powi(2)).sum::<f64>();
+            let zone = |way: f64| {
+                let (closed, acts) = (way - 0.2, 1.0 - 0.5 * way);
+                acts * closed.powi(3) / 3.0 + 0.5 * closed.powi(4) / 4.0
+            };
+            let [all, first] = [0, 1].map(|k| places.iter().map(|[at, acts]| acts * at.powi(k)).sum::<f64>());
+            assert!((all - opened.acts[0]).abs() < 1e-12 && (first - opened.acts[1]).abs() < 1e-12);
+            assert!([0.21, 0.3, 0.5, 0.8].into_iter().all(|way| stored(way) >= zone(way)));
         }
         let mut pressed = Zone::default();
         pressed.add([0.0, 0.25].map(|at| (at, [1.0, 1.0, 1.0, 0.0])));

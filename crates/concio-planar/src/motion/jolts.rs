@@ -17,6 +17,8 @@ const SETTLES: f64 = 5.0;
 /// that gravity gives in that time [s]: short steps need no parts.
 const SPENT: f64 = 0.01;
 const RINGS: f64 = 5e-3;
+/// How many steps ahead it is looked whether a load crushes a joint as a whole: how it swings until then decides how far.
+const NEARS: f64 = 50.0;
 /// Force that falls at once over weight and load, from which it counts.
 const GIVES_WAY: f64 = 0.05;
 /// Part by which what a rigid point bears grows in half a step at most where it grows on so.
@@ -50,12 +52,31 @@ impl Motion {
         self.kinetic() + 0.5 * self.weight * G * settling * settling
     }
 
-    /// Whether bonds take so much of the motion in the step, or took it a little before, that it counts how what they held rings then.
-    pub(super) fn rings(&mut self) -> bool {
-        if !self.setting.still && self.spent() > SPENT * self.energy_of_motion(RINGS) {
+    /// Whether bonds take so much of the motion in a step of `h` [s] that it counts how what they held rings then, or a joint nears its strength as a whole; or did a
+    /// little before.
+    pub(super) fn rings(&mut self, h: f64) -> bool {
+        if self.setting.still {
+            return false;
+        }
+        if self.spent() > SPENT * self.energy_of_motion(RINGS) || self.crushes && self.nears_crushing(h) {
             self.rings_until = self.time + RINGS;
         }
         self.time < self.rings_until
+    }
+
+    /// Whether some joint is crushed soon as a whole if what presses it goes on to grow as in this step of `h` [s].
+    fn nears_crushing(&self, h: f64) -> bool {
+        let mut at = 0;
+        self.owners.chunk_by(|a, b| a.pair == b.pair).any(|owners| {
+            let contacts = &self.contacts[at..at + owners.len()];
+            at += owners.len();
+            let link = self.pairs[owners[0].pair].link;
+            let strength = self.laws.of(link).crushing;
+            let Some(link) = link.filter(|_| strength.is_finite()) else { return false };
+            let pressed =
+                contacts.iter().map(|contact| contact.total(contact.velocity(&self.after))[0]).sum::<f64>() / h;
+            pressed + NEARS * (pressed - self.seen[link].pressure) > strength
+        })
     }
 
     /// Whether slides turn round in the step so that friction, which acts one way in all of it, is wrong by so much that it counts. What stones that
