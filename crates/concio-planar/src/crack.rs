@@ -36,7 +36,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::fibres::{Fibres, Sheared};
+use crate::fibres::{Fibres, HALF, Sheared, Stands, above};
 use crate::joint::{Bond, Law, Normal, Part, Point};
 use crate::zone::{self, Local, Moments, Zone};
 
@@ -1181,18 +1181,22 @@ impl Crack {
             there.min_by(|a, b| near(a).total_cmp(&near(b))).map_or(0.0, |mu| mu[1])
         };
         let (stiffness, damping) = (law.normal_stiffness(), law.normal_damping());
-        let last = self.crushed.len().saturating_sub(1);
+        let last = self.crushed.len().saturating_sub(1) as f64;
         let Crack { fibres, crushed, was, .. } = self;
-        let Sheared { mut whole, mut energy, .. } = fibres.follow(along, |x| {
-            let [mut gap, slide] = between(line, x);
+        let Sheared { mut whole, mut energy } = fibres.follow(along, |x| {
+            let ends = [(x - HALF).max(0.0), (x + HALF).min(1.0)];
+            let deep = |x: f64| crushed.get((x * last).round() as usize).copied().unwrap_or(0.0);
+            let [sunk, then] = [line, &*was].map(|line| ends.map(|x| -between(line, x)[0] - deep(x)));
+            let [pressed, mut sprung] = above(sunk);
             if !still {
-                gap = 0.5 * (gap + between(was, x)[0]);
+                // What acted in the step.
+                sprung = above([0, 1].map(|k| 0.5 * (sunk[k] + then[k])))[1];
             }
-            let deep = crushed.get((x * last as f64).round() as usize).copied().unwrap_or(0.0);
-            let sprung = stiffness * (-gap - deep).max(0.0);
             let damped = damping * (parting[0] + x * (parting[1] - parting[0]));
-            let pressed = if parting == [0.0; 2] || sprung == 0.0 { sprung } else { (sprung - damped).max(0.0) };
-            [slide, mu(x) * pressed.min(law.crushing)]
+            let force = stiffness * sprung;
+            let force = if parting == [0.0; 2] || force == 0.0 { force } else { (force - damped).max(0.0) };
+            let most = mu(x) * force.min(law.crushing);
+            Stands { slide: between(line, x)[1], most, pressed: [above(then)[0], pressed] }
         });
         // Where points slid that were pressed less in the step than at its end.
         let rubbed = std::mem::take(&mut fibres.rubbed);

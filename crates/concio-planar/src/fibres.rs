@@ -21,12 +21,36 @@ pub(crate) struct Fibres {
     pub slide: bool,
 }
 
-/// What they bear along [N] and store [J], and whether one slid that was pressed.
+/// How a joint stands around a fibre.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stands {
+    /// How far it slid [m].
+    pub slide: f64,
+    /// What friction bears at most, over all of the joint [N].
+    pub most: f64,
+    /// The part that is pressed, 0 … 1, a step before and now.
+    pub pressed: [f64; 2],
+}
+
+/// What fibres bear along [N] and store [J].
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Sheared {
     pub whole: f64,
     pub energy: f64,
-    pub slides: bool,
+}
+
+/// Half of what a fibre stands for, of the joint.
+pub(crate) const HALF: f64 = 0.5 / (FIBRES - 1) as f64;
+
+/// The part above 0 of what goes from one number to another, and the mean of it there over all.
+pub(crate) fn above([from, to]: [f64; 2]) -> [f64; 2] {
+    let part = match [from > 0.0, to > 0.0] {
+        [true, true] => return [1.0, 0.5 * (from + to)],
+        [false, false] => return [0.0; 2],
+        [true, false] => from / (from - to),
+        [false, true] => to / (to - from),
+    };
+    [part, 0.5 * part * from.max(to)]
 }
 
 impl Fibres {
@@ -58,21 +82,27 @@ impl Fibres {
         }
     }
 
-    /// Takes them along to where the joint slid to, with springs of `stiffness` over all of it [N/m]: `at` says of a place 0 … 1 how far that is [m] and what friction
-    /// bears there at most, over all of the joint [N]. What would bear more slides.
-    pub fn follow(&mut self, stiffness: f64, at: impl Fn(f64) -> [f64; 2]) -> Sheared {
+    /// Takes them along to where the joint slid to, with springs of `stiffness` over all of it [N/m]: `at` says how it stands around each. What would bear more than
+    /// friction lets it slides.
+    pub fn follow(&mut self, stiffness: f64, at: impl Fn(f64) -> Stands) -> Sheared {
         let mut sheared = Sheared::default();
         for (n, anchor) in self.anchors.iter_mut().enumerate() {
-            let [slide, most] = at(place(n));
-            let free = stiffness * (*anchor - slide);
-            let borne = free.clamp(-most, most);
-            if borne != free {
-                *anchor = slide + borne / stiffness;
-                sheared.slides = true;
-            }
+            let Stands { slide, most, pressed: [before, pressed] } = at(place(n));
+            // What has just closed bears nothing yet.
+            let stretch = (*anchor - slide) * if pressed > before { before / pressed } else { 1.0 };
+            let k = pressed * stiffness;
+            let borne = (k * stretch).clamp(-most, most);
+            let stretch = if borne == k * stretch && k > 0.0 {
+                stretch
+            } else if k > 0.0 {
+                borne / k
+            } else {
+                0.0
+            };
+            *anchor = slide + stretch;
             let weight = if n == 0 || n == FIBRES - 1 { 0.5 } else { 1.0 } / (FIBRES - 1) as f64;
             sheared.whole += weight * borne;
-            sheared.energy += weight * 0.5 * borne * borne / stiffness;
+            sheared.energy += weight * 0.5 * borne * stretch;
         }
         sheared
     }

@@ -944,9 +944,9 @@ impl Rocked {
         [turn, motion.account.bond]
     }
 
-    /// The same of 200 strips by short explicit steps.
+    /// The same of 400 strips by short explicit steps.
     fn strips(&self) -> [f64; 2] {
-        const STRIPS: usize = 200;
+        const STRIPS: usize = 400;
         const STEP: f64 = 2e-6;
         let part = 1.0 / STRIPS as f64;
         let mut crushed = [0.0f64; STRIPS];
@@ -989,8 +989,8 @@ impl Rocked {
 /// Rocked to and fro, a joint that is crushed turns and takes what strips do, with dashpots and without, however long the steps.
 #[test]
 fn a_joint_that_rocking_crushes_is_one_of_strips() {
-    // As steps get short what is left is that strips and nodes share the edge in other parts.
-    let steps = [(1e-3, [0.01; 2]), (1e-4, [0.015, 0.02]), (2e-5, [0.015, 0.02])];
+    // In a step of 1 ms a joint that opens lets go at once what fibres let go one after the other.
+    let steps = [(1e-3, [0.02, 0.025]), (1e-4, [0.01; 2]), (2e-5, [0.01; 2])];
     for (ratio, steps) in [(0.0, &steps[..2]), (0.05, &steps)] {
         let rocked = Rocked::of(ratio);
         let [turn, taken] = rocked.strips();
@@ -998,10 +998,10 @@ fn a_joint_that_rocking_crushes_is_one_of_strips() {
             let [turns, takes] = rocked.moves(*step);
             let subject =
                 format!("Crushing: stone of 0.5 m × 1 m rocked to and fro, ζ = {ratio}, in steps of {step} s");
-            agrees!(format!("{subject}; turn"), "200 strips in steps of 2 µs", "rad", turns, turn, within[0]);
+            agrees!(format!("{subject}; turn"), "400 strips in steps of 2 µs", "rad", turns, turn, within[0]);
             agrees!(
                 format!("{subject}; energy of crushing"),
-                "200 strips in steps of 2 µs",
+                "400 strips in steps of 2 µs",
                 "J",
                 takes,
                 taken,

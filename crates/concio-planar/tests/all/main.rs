@@ -3,6 +3,7 @@
 mod account;
 mod cracks;
 mod devices;
+mod fibres;
 mod motion;
 mod rocking;
 mod ties;
