@@ -17,4 +17,5 @@ mod order;
 mod pattern;
 pub mod stage;
 pub mod step;
+pub mod sums;
 pub mod tableau;

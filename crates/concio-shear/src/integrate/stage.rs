@@ -27,6 +27,7 @@ use crate::integrate::flips::Flips;
 use crate::integrate::groups::Groups;
 use crate::integrate::joints::{Contacts, FAR, Joints, MEETING, MOST_SEARCHED, Rubs};
 use crate::integrate::linear::{Factoring, MOST_LISTED, Matrix};
+use crate::integrate::sums::Sums;
 use crate::state::{DeviceState, Tangents};
 use crate::system::System;
 use concio_law::bond::BondState;
@@ -71,6 +72,10 @@ pub struct Stage {
     pub matrix: Matrix,
     joints: Joints,
     rubs: Rubs,
+    /// Sums over all joints and over those that rub, and room for what is summed.
+    of_joints: Sums,
+    of_rubs: Sums,
+    parts: Vec<[f64; 2]>,
     bonds: Bonds,
     pub devices: Devices,
     contacts: Contacts,
@@ -104,6 +109,8 @@ pub struct Stage {
     /// V − V_p, and the correction, with base and top at the end.
     change: Vec<f64>,
     rhs: Vec<f64>,
+    /// δ_p + τ w_p and w_p of all joints.
+    predicted: Vec<[f64; 2]>,
     /// δ_p + τ w_p of the one-sided joints.
     gap: Vec<f64>,
     /// w_p and w of the joints that rub, and the law at w.
@@ -205,6 +212,9 @@ impl Stage {
         let (fill, zeros) = (matrix.lower.len(), |len: usize| vec![0.0; len]);
         Stage {
             arch: Arch::new(),
+            of_joints: Sums::new(n, &joints.sides),
+            of_rubs: Sums::new(n, &rubs.sides),
+            parts: vec![[0.0; 2]; joints.sides.len()],
             z: zeros(n + 2),
             v: zeros(n + 2),
             solution: zeros(n + 2),
@@ -215,6 +225,7 @@ impl Stage {
             load: zeros(n + 2),
             change: zeros(n + 2),
             rhs: zeros(n + 2),
+            predicted: vec![[0.0; 2]; joints.sides.len()],
             gap: zeros(joints.one_sided.len()),
             before: zeros(rubs.len()),
             velocity: zeros(rubs.len()),
@@ -367,17 +378,18 @@ impl Stage {
         self.closed.copy_from_slice(&tangents.closed);
         self.diagonal.copy_from_slice(&self.mass);
         self.lower.fill(0.0);
-        let j = &self.joints;
-        for (e, &[a, b]) in j.sides.iter().enumerate() {
-            let stiffness = if self.closed[e] { j.stiffness[e] } else { 0.0 };
-            let s = self.tau * (system.elastic[e].damping + self.tau * stiffness);
-            self.diagonal[a as usize] += s;
-            if let Some(slot) = j.slot[e].at() {
-                self.diagonal[b as usize] += s;
-                self.lower[slot] -= s;
+        let (j, tau) = (&self.joints, self.tau);
+        let (diagonal, lower) = (&mut self.diagonal[..], &mut self.lower[..]);
+        let laws = system.elastic.iter().zip(&j.stiffness).zip(&self.closed);
+        for ((part, slot), ((law, stiffness), &closed)) in self.parts.iter_mut().zip(&j.slot).zip(laws) {
+            let stiffness = if closed { *stiffness } else { 0.0 };
+            let s = tau * (law.damping + tau * stiffness);
+            *part = [s; 2];
+            if let Some(slot) = slot.at() {
+                lower[slot] -= s;
             }
         }
-        let (tau, diagonal, lower) = (self.tau, &mut self.diagonal[..], &mut self.lower[..]);
+        self.of_joints.add(diagonal, &self.parts);
         self.bonds.open(&self.closed, |e, stiffness| {
             let ([a, b], s) = (j.sides[e], tau * tau * stiffness);
             diagonal[a as usize] += s;
@@ -407,13 +419,16 @@ impl Stage {
         if self.devices.start(system, [z, v], tau) {
             self.factors_hold = false;
         }
+        for (predicted, sides) in self.predicted.iter_mut().zip(&system.sides) {
+            let [a, b] = sides.map(|s| s as usize);
+            let w = v[a] - v[b];
+            *predicted = [z[a] - z[b] + tau * w, w];
+        }
         for (gap, &e) in self.gap.iter_mut().zip(&self.joints.one_sided) {
-            let [a, b] = system.sides[e as usize].map(|s| s as usize);
-            *gap = z[a] - z[b] + tau * (v[a] - v[b]);
+            *gap = self.predicted[e as usize][0];
         }
         for (before, &e) in self.before.iter_mut().zip(&self.rubs.joint) {
-            let [a, b] = system.sides[e as usize].map(|s| s as usize);
-            *before = v[a] - v[b];
+            *before = self.predicted[e as usize][1];
         }
         self.start_contacts(tangents);
     }
@@ -422,23 +437,22 @@ impl Stage {
     #[inline(always)]
     fn load_elastic(&mut self, system: &System, ground: f64) {
         let n = self.mass.len();
-        let (z, v, tau) = (&self.z, &self.v, self.tau);
+        let tau = self.tau;
         for (load, m) in self.load[..n].iter_mut().zip(&self.mass) {
             *load = -tau * m * ground;
         }
         let j = &self.joints;
-        for (e, (&[a, b], of_system)) in j.sides.iter().zip(&system.sides).enumerate() {
-            let [i, k] = of_system.map(|s| s as usize);
-            let w = v[i] - v[k];
-            let elastic = if self.closed[e] { j.stiffness[e] * (z[i] - z[k] + tau * w) } else { 0.0 };
-            let f = tau * (system.elastic[e].damping * w + elastic);
-            self.load[a as usize] -= f;
-            self.load[b as usize] += f;
+        let laws = system.elastic.iter().zip(&j.stiffness).zip(&self.closed);
+        for ((part, [d, w]), ((law, stiffness), &closed)) in self.parts.iter_mut().zip(&self.predicted).zip(laws) {
+            let elastic = if closed { stiffness * d } else { 0.0 };
+            let f = tau * (law.damping * w + elastic);
+            *part = [-f, f];
         }
+        self.of_joints.add(&mut self.load[..n], &self.parts);
         let load = &mut self.load[..];
         self.bonds.open(&self.closed, |e, stiffness| {
-            let ([a, b], [i, k]) = (j.sides[e], system.sides[e].map(|s| s as usize));
-            let f = tau * stiffness * (z[i] - z[k] + tau * (v[i] - v[k]));
+            let ([a, b], [d, _]) = (j.sides[e], self.predicted[e]);
+            let f = tau * stiffness * d;
             load[a as usize] -= f;
             load[b as usize] += f;
         });
@@ -489,15 +503,17 @@ impl Stage {
         let rubs = &self.rubs;
         if system.reciprocal {
             let (diagonal, lower) = (&mut self.matrix.diagonal[..], &mut self.matrix.lower[..]);
-            let sides = rubs.sides.iter().zip(&rubs.slot).zip(&rubs.normal);
-            for (((&[a, b], slot), normal), slope) in sides.zip(&tangents.slope) {
+            let parts = &mut self.parts[..rubs.len()];
+            for (((part, slot), normal), slope) in
+                parts.iter_mut().zip(&rubs.slot).zip(&rubs.normal).zip(&tangents.slope)
+            {
                 let s = self.tau * slope * normal[0];
-                diagonal[a as usize] += s;
+                *part = [s; 2];
                 if let Some(slot) = slot.at() {
-                    diagonal[b as usize] += s;
                     lower[slot] -= s;
                 }
             }
+            self.of_rubs.add(diagonal, parts);
         } else {
             let matrix = &mut self.matrix;
             matrix.upper.copy_from_slice(&matrix.lower);
@@ -519,13 +535,15 @@ impl Stage {
     #[inline(always)]
     fn right_side(&mut self, tangents: &Tangents) {
         self.change.copy_from_slice(&self.load);
-        let (change, tau, rubs) = (&mut self.change[..], self.tau, &self.rubs);
+        let (n, tau, rubs) = (self.mass.len(), self.tau, &self.rubs);
+        let parts = &mut self.parts[..rubs.len()];
         let laws = tangents.mu.iter().zip(&tangents.slope).zip(&tangents.velocity).zip(&self.before);
-        for ((&[a, b], normal), (((mu, slope), at), before)) in rubs.sides.iter().zip(&rubs.normal).zip(laws) {
+        for ((part, normal), (((mu, slope), at), before)) in parts.iter_mut().zip(&rubs.normal).zip(laws) {
             let f = tau * (mu + slope * (before - at));
-            change[a as usize] -= normal[0] * f;
-            change[b as usize] += normal[1] * f;
+            *part = [-normal[0] * f, normal[1] * f];
         }
+        self.of_rubs.add(&mut self.change[..n], parts);
+        let change = &mut self.change[..];
         let j = &self.joints;
         self.bonds.forces(|e, force| {
             let [a, b] = j.sides[e];
@@ -538,7 +556,6 @@ impl Stage {
             change[b as usize] += tau * force;
         });
         self.push_contacts(tangents);
-        let n = self.mass.len();
         self.change[n..].fill(0.0);
     }
 
@@ -629,14 +646,15 @@ impl Stage {
                 (self.mu[r], self.slope[r]) = (level.copysign(tangents.velocity[r]), slope);
             }
         }
-        self.rhs.fill(0.0);
-        let rhs = &mut self.rhs[..];
+        let (n, parts) = (self.mass.len(), &mut self.parts[..rubs.len()]);
         let laws = tangents.mu.iter().zip(&tangents.slope).zip(&tangents.velocity).zip(&self.velocity).zip(&self.mu);
-        for ((&[a, b], normal), ((((drawn, slope), at), w), mu)) in rubs.sides.iter().zip(&rubs.normal).zip(laws) {
+        for ((part, normal), ((((drawn, slope), at), w), mu)) in parts.iter_mut().zip(&rubs.normal).zip(laws) {
             let missed = tau * (mu - (drawn + slope * (w - at)));
-            rhs[a as usize] += normal[0] * missed;
-            rhs[b as usize] -= normal[1] * missed;
+            *part = [normal[0] * missed, -normal[1] * missed];
         }
+        let rhs = &mut self.rhs[..];
+        rhs.fill(0.0);
+        self.of_rubs.add(&mut rhs[..n], parts);
         let j = &self.joints;
         self.bonds.mismatch(|e, force| {
             let [a, b] = j.sides[e];
@@ -648,7 +666,6 @@ impl Stage {
             rhs[a as usize] += tau * force;
             rhs[b as usize] -= tau * force;
         });
-        let n = self.mass.len();
         self.rhs[n..].fill(0.0);
     }
 
@@ -713,12 +730,15 @@ impl Stage {
         for (i, &place) in self.matrix.places().iter().enumerate() {
             self.solution[i] = self.v[i] + self.change[place as usize];
         }
-        for (r, &[a, b]) in self.rubs.sides.iter().enumerate() {
-            let w = self.before[r] + self.change[a as usize] - self.change[b as usize];
-            tangents.mu[r] = self.mu[r] + self.slope[r] * (w - self.velocity[r]);
-            tangents.slope[r] = self.slope[r];
-            tangents.velocity[r] = w;
+        let (change, laws) = (&self.change[..], self.mu.iter().zip(&self.slope).zip(&self.velocity));
+        let tangent = tangents.mu.iter_mut().zip(&mut tangents.velocity);
+        let joints = self.rubs.sides.iter().zip(&self.before);
+        for ((&[a, b], before), ((mu, velocity), ((drawn, slope), at))) in joints.zip(tangent.zip(laws)) {
+            let w = before + change[a as usize] - change[b as usize];
+            *mu = drawn + slope * (w - at);
+            *velocity = w;
         }
+        tangents.slope.copy_from_slice(&self.slope);
         self.devices.finish(&self.joints, &self.change);
         self.finish_contacts(tangents);
         if !self.rubs.sticking.is_empty() || self.contacts.len() > 0 {
