@@ -470,7 +470,7 @@ impl Crack {
             crushed: vec![0.0; crushed_nodes(law)],
             placed: [[0.0; 2]; ZONES],
             hidden: 0.0,
-            fibres: Fibres::new(law.in_line()),
+            fibres: Fibres::new(law.cracked().in_line()),
             cracked: since,
             broken: since,
             reach: 0.0,
@@ -536,6 +536,7 @@ impl Crack {
         }
         let lost = self.hidden + self.fibres.let_go();
         let apart = [[APART, 0.0]; 2];
+        (self.line, self.was) = (apart, apart);
         let zones = self.zones(law, &apart);
         self.place(law, &apart, &zones, true);
         for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
@@ -644,7 +645,7 @@ impl Crack {
         self.nodes.len() == if law.bond.is_some() { NODES } else { 0 }
             && (law.bond.is_some() || self.is_gone())
             && self.crushed.len() == crushed_nodes(law)
-            && self.fibres.fit(law.in_line())
+            && self.fibres.fit(law.cracked().in_line())
             && (1..=POINTS).contains(&self.spots.len())
             && self.spots.iter().all(|spot| spot.point < POINTS && spot.at.is_finite() && spot.share > 0.0)
             && self.held[0] < self.held[1]
@@ -1071,8 +1072,10 @@ impl Crack {
         // Points go on with the speed of the nearest one.
         let mut speeds = [[f64::NAN; 2]; DRY];
         dry().zip(&mut speeds).for_each(|(spot, speed)| *speed = [spot.at, points[spot.point].speed]);
-        if breaks {
-            self.begin_fibres(law, points);
+        let handed = [borne + friction[0], stored + friction[1]];
+        if breaks && self.fibres.are_there() {
+            let stretch = handed[0] / law.breaking_stiffness();
+            self.fibres.begin(|x| between(&line, x)[1] + stretch);
         }
         self.place(law, &line, &zones, still);
         for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
@@ -1087,9 +1090,9 @@ impl Crack {
         self.set(points);
         let rubbed = if self.fibres.are_there() && self.is_gone() {
             // Springs along are theirs.
-            self.rub_from(law, points, (&line, still, parting), stored)
+            self.follow_fibres(law, points, (&line, still, parting), handed[1])
         } else {
-            self.share_friction(law, points, (still, parting), [borne + friction[0], stored + friction[1]]);
+            self.share_friction(law, points, (still, parting), handed);
             stored + friction[1] - self.friction_borne(law, points)[1]
         };
         // What the next step takes them to bear before it knows better.
@@ -1116,21 +1119,9 @@ impl Crack {
 
     /// Takes note of what friction took of one of its points in the step [J].
     pub(crate) fn rubs(&mut self, taken: f64) {
-        self.fibres.rubbed += taken;
-    }
-
-    /// Its springs along begin as its points bear.
-    fn begin_fibres(&mut self, law: &Law, points: &[Point]) {
-        let along = law.breaking_stiffness();
-        let Crack { fibres, spots, .. } = self;
-        let dry = || spots.iter().filter(|spot| spot.part == Part::Dry);
-        fibres.begin(|x| {
-            let nearest = dry().min_by(|a, b| (a.at - x).abs().total_cmp(&(b.at - x).abs()));
-            nearest.map_or(0.0, |spot| {
-                let point = &points[spot.point];
-                point.slide + point.bearing / (spot.share * along)
-            })
-        });
+        if self.is_gone() && self.fibres.are_there() {
+            self.fibres.rubbed += taken;
+        }
     }
 
     /// Lets what its friction does not hold slide where its points stand as they did; what that takes.
@@ -1139,19 +1130,19 @@ impl Crack {
             return Worn::default();
         }
         let [_, stored] = self.friction_borne(law, points);
-        Worn { friction: self.rub_from(law, points, how, stored), ..Worn::default() }
+        Worn { friction: self.follow_fibres(law, points, how, stored), ..Worn::default() }
     }
 
     /// Friction at rest is overcome where all that is pressed slides, and comes back where all of it rests: a joint slides as one.
     fn start_and_stop(&mut self, points: &mut [Point]) {
         let Crack { fibres, spots, .. } = self;
-        let dry = || spots.iter().filter(|spot| spot.part == Part::Dry).map(|spot| spot.point);
+        let dry = || spots.iter().filter(|spot| spot.part == Part::Dry && spot.rubbing > 0.0).map(|spot| spot.point);
         let speeds = || dry().map(|k| &points[k]).filter(|p| p.gap + p.crushed < 0.0).map(|p| p.speed);
         let fastest = speeds().fold(0.0, f64::max);
-        fibres.slide &= fastest > 0.0;
-        fibres.slide |= fastest > 0.0 && speeds().all(|speed| speed > 0.0);
+        fibres.sliding &= fastest > 0.0;
+        fibres.sliding |= fastest > 0.0 && speeds().all(|speed| speed > 0.0);
         for k in dry() {
-            points[k].speed = match fibres.slide {
+            points[k].speed = match fibres.sliding {
                 true if points[k].speed == 0.0 => fastest,
                 true => points[k].speed,
                 false => 0.0,
@@ -1161,7 +1152,7 @@ impl Crack {
 
     /// Takes the fibres to where its ends are as far apart as `line` says, and has its points bear what they do; what friction takes of `stored` of the points and
     /// what fibres stored beyond [J].
-    fn rub_from(
+    fn follow_fibres(
         &mut self,
         law: &Law,
         points: &mut [Point],
@@ -1175,7 +1166,12 @@ impl Crack {
         dry().zip(&mut mus).for_each(|(spot, mu)| {
             *mu = [spot.at, law.friction.map_or(0.0, |friction| friction.of(points[spot.point].speed, still))];
         });
+        let numbers = || mus.iter().filter(|mu| !mu[0].is_nan()).map(|mu| mu[1]);
+        let [least, largest] = [numbers().fold(f64::INFINITY, f64::min), numbers().fold(0.0, f64::max)];
         let mu = |x: f64| {
+            if least == largest {
+                return least;
+            }
             let near = |mu: &&[f64; 2]| (mu[0] - x).abs();
             let there = mus.iter().filter(|mu| !mu[0].is_nan());
             there.min_by(|a, b| near(a).total_cmp(&near(b))).map_or(0.0, |mu| mu[1])
@@ -1187,18 +1183,16 @@ impl Crack {
             let ends = [(x - HALF).max(0.0), (x + HALF).min(1.0)];
             let deep = |x: f64| crushed.get((x * last).round() as usize).copied().unwrap_or(0.0);
             let [sunk, then] = [line, &*was].map(|line| ends.map(|x| -between(line, x)[0] - deep(x)));
-            let [pressed, mut sprung] = above(sunk);
-            if !still {
-                // What acted in the step.
-                sprung = above([0, 1].map(|k| 0.5 * (sunk[k] + then[k])))[1];
-            }
-            let damped = damping * (parting[0] + x * (parting[1] - parting[0]));
+            let pressed = above(sunk)[0];
+            // What acts without inertia acts at the end of the step, else in its middle.
+            let [part, sprung] = above(if still { sunk } else { [0, 1].map(|k| 0.5 * (sunk[k] + then[k])) });
+            let damped = part * damping * (parting[0] + x * (parting[1] - parting[0]));
             let force = stiffness * sprung;
             let force = if parting == [0.0; 2] || force == 0.0 { force } else { (force - damped).max(0.0) };
-            let most = mu(x) * force.min(law.crushing);
+            let most = mu(x) * force.min(part * law.crushing);
             Stands { slide: between(line, x)[1], most, pressed: [above(then)[0], pressed] }
         });
-        // Where points slid that were pressed less in the step than at its end.
+        // Friction took this of points that were pressed less in the step than at its end.
         let rubbed = std::mem::take(&mut fibres.rubbed);
         let most = (before + if still { rubbed } else { 0.0 }).max(0.0);
         if energy > most {
@@ -1241,7 +1235,8 @@ impl Crack {
         let all: f64 = dry().map(|spot| self.limit(law, (spot, &points[spot.point]), how)).sum();
         let part = if all > 0.0 { (whole / all).clamp(-1.0, 1.0) } else { 0.0 };
         for spot in dry() {
-            points[spot.point].bearing = part * self.limit(law, (spot, &points[spot.point]), how);
+            let point = &mut points[spot.point];
+            point.bearing = part * self.limit(law, (spot, point), how);
         }
     }
 

@@ -18,7 +18,7 @@ pub(crate) struct Fibres {
     /// What friction took of the points in the step [J].
     pub rubbed: f64,
     /// Whether the joint slides.
-    pub slide: bool,
+    pub sliding: bool,
 }
 
 /// How a joint stands around a fibre.
@@ -56,14 +56,14 @@ pub(crate) fn above([from, to]: [f64; 2]) -> [f64; 2] {
 impl Fibres {
     /// Of a joint that bears nothing yet.
     pub fn new(there: bool) -> Self {
-        Fibres { anchors: vec![0.0; if there { FIBRES } else { 0 }], uneven: 0.0, rubbed: 0.0, slide: false }
+        Fibres { anchors: vec![0.0; if there { FIBRES } else { 0 }], uneven: 0.0, rubbed: 0.0, sliding: false }
     }
 
     pub fn are_there(&self) -> bool {
         !self.anchors.is_empty()
     }
 
-    /// Whether there are as many as in another.
+    /// Whether there are as many as a joint needs.
     pub fn fit(&self, there: bool) -> bool {
         self.anchors.len() == if there { FIBRES } else { 0 }
     }
@@ -71,12 +71,13 @@ impl Fibres {
     /// They bear nothing where they are; returns what they stored beyond the points [J].
     pub fn let_go(&mut self) -> f64 {
         self.anchors.fill(0.0);
+        (self.sliding, self.rubbed) = (false, 0.0);
         std::mem::take(&mut self.uneven)
     }
 
     /// Begins with the slide at which each bears nothing, by its place 0 … 1.
     pub fn begin(&mut self, anchor: impl Fn(f64) -> f64) {
-        self.uneven = 0.0;
+        (self.uneven, self.rubbed) = (0.0, 0.0);
         for (n, own) in self.anchors.iter_mut().enumerate() {
             *own = anchor(place(n));
         }
@@ -91,13 +92,15 @@ impl Fibres {
             // What has just closed bears nothing yet.
             let stretch = (*anchor - slide) * if pressed > before { before / pressed } else { 1.0 };
             let k = pressed * stiffness;
-            let borne = (k * stretch).clamp(-most, most);
-            let stretch = if borne == k * stretch && k > 0.0 {
-                stretch
-            } else if k > 0.0 {
-                borne / k
-            } else {
+            let borne = (k * stretch).max(-most).min(most);
+            // Rounding would move what sticks.
+            let sticks = borne == k * stretch;
+            let stretch = if k == 0.0 {
                 0.0
+            } else if sticks {
+                stretch
+            } else {
+                borne / k
             };
             *anchor = slide + stretch;
             let weight = if n == 0 || n == FIBRES - 1 { 0.5 } else { 1.0 } / (FIBRES - 1) as f64;

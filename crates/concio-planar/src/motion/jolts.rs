@@ -72,7 +72,7 @@ impl Motion {
             at += owners.len();
             let link = self.pairs[owners[0].pair].link;
             let strength = self.laws.of(link).crushing;
-            let Some(link) = link.filter(|_| strength.is_finite()) else { return false };
+            let Some(link) = link.filter(|link| strength.is_finite() && self.seen[*link].touches) else { return false };
             let pressed =
                 contacts.iter().map(|contact| contact.total(contact.velocity(&self.after))[0]).sum::<f64>() / h;
             pressed + NEARS * (pressed - self.seen[link].pressure) > strength

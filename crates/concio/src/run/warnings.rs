@@ -56,8 +56,8 @@ const RESOLVES: f64 = 15.0;
 const ON_AND_ON: f64 = 20.0;
 const ACCURATE: f64 = 40.0;
 /// Part of what is crushed of a joint from which it is too much for one step, and the part at which about a hundredth of it is wrong. Blocks on one joint under
-/// half-sine pulses of 2 … 100 ms, 1.1 to 4 times the strength, were off by up to 1.1 times what one step took from a tenth on, by 1.6 times where that was the mean
-/// of its parts, and by up to 1.5 % at the step that is told. Below a tenth a few of 2 to 10 ms were off by 3 to 4 %: they are not told.
+/// half-sine pulses of 2 … 100 ms, 1.1 to 4 times the strength, were off by up to 1.1 times what one step took from a tenth on, where it was taken in parts by 1.6 times their
+/// mean, and by up to 1.5 % at the step that is told. Below a tenth a few of 2 to 10 ms were off by 3 to 4 %: they are not told.
 const ABRUPT: f64 = 0.1;
 const GRADUAL: f64 = 0.02;
 /// Share of friction in what is lost from which a wall slid.
