@@ -27,6 +27,8 @@ mod lever;
 mod packs;
 mod point;
 
+use serde::{Deserialize, Serialize};
+
 use crate::blocks::{Blocks, Triple};
 use crate::contact::{Contact, Effort, Linear, Status, unbalance, worse};
 use group::Group;
@@ -37,12 +39,8 @@ use point::{Course, Left};
 /// Iterations after which an attempt is given up.
 const MOST: usize = 60;
 /// What an attempt that begins anew counts as out of balance, over what it was at first: bounds that the one before came too near to on its way keep the way
-/// short, and there are steps that it never ends otherwise.
+/// short, and there are steps that it never ends otherwise. Where most contacts yield, Newton's method ends what has come so near.
 const NEARER: f64 = 0.01;
-/// Patience with what is left already so little that it may stay.
-const NEARLY: usize = 8;
-/// Patience at most where a step that is not solved is taken in two halves.
-const SOON: usize = 12;
 
 /// What is tried until a step is solved. Contacts mostly go on to do what they did.
 const LADDER: [Attempt; 5] = [
@@ -77,10 +75,16 @@ const SHARE: f64 = 0.02;
 /// Least multiplier at the start, over what is out of balance, and that of friction that begins to bear, over its bound by the mass.
 const CRACK: f64 = 0.5;
 const GRIP: f64 = 0.01;
-/// Share of the way to the boundary that is gone.
-const INSIDE: f64 = 0.995;
 /// Share of the way after which products are evened out instead of reduced.
 const STUCK: f64 = 0.03;
+/// What stays at least of a distance or a multiplier in an iteration. With a half of it or twice as much, walls that rock take an eighth more iterations.
+const KEPT: f64 = 0.1;
+/// Mass that a push moves over ρ across from which a contact yields: its bounds do not keep the way short. Where they do, a façade of a thousand stones on
+/// springs takes a fifth more iterations; where those of firm stones do not either, nothing is solved that rocks.
+const YIELDS: f64 = 2e-3;
+/// Failures in turn of Newton's method from what contacts did before that count. At the eighth it is left out for one solution, and at each of the last for twice as
+/// many: in a large wall that falls it hardly ever succeeds. From the third on, stones that slide would take a tenth more iterations.
+const FAILURES: u32 = 11;
 
 /// Room for the solution.
 #[derive(Debug, Clone, Default)]
@@ -101,9 +105,32 @@ pub(crate) struct Interior {
     pushes: [Vec<Triple>; 2],
     /// What was left at the start of the first attempt by interior points [m/s].
     begun: Option<f64>,
+    /// How Newton's method fared from what contacts did before.
+    pub tries: Tries,
     /// Velocities at the start, and before an attempt to end.
     guess: Vec<Triple>,
     before: Vec<Triple>,
+}
+
+/// How the first attempt fared in the last solutions, and how many go without it.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub(crate) struct Tries {
+    failures: u32,
+    waits: u32,
+}
+
+impl Tries {
+    /// Whether this solution goes without it.
+    fn leaves_out(&mut self) -> bool {
+        let waits = self.waits > 0;
+        self.waits = self.waits.saturating_sub(1);
+        waits
+    }
+
+    fn see(&mut self, solved: bool) {
+        self.failures = if solved { 0 } else { FAILURES.min(self.failures + 1) };
+        self.waits = (1 << self.failures) >> 8;
+    }
 }
 
 /// What is left of all conditions [m/s].
@@ -139,12 +166,13 @@ impl Method {
     }
 }
 
-/// What is to be solved: masses and velocities without contact, and what may be left [m/s], at most in the end.
+/// What is to be solved: masses and velocities without contact, what may be left [m/s], at most in the end, and whether most contacts yield.
 #[derive(Debug, Clone, Copy)]
 struct Step<'a> {
     bodies: (&'a [Triple], &'a [Triple]),
     tolerance: f64,
     enough: f64,
+    yields: bool,
 }
 
 /// What contacts are like, for how a step is solved.
@@ -152,13 +180,14 @@ struct Step<'a> {
 pub(crate) struct Survey {
     /// Whether none bore anything.
     new: bool,
-    /// How many are of the most frequent kind.
+    /// How many are of the most frequent kind, and how many do not yield.
     plain: usize,
+    firm: usize,
 }
 
 impl Default for Survey {
     fn default() -> Self {
-        Survey { new: true, plain: 0 }
+        Survey { new: true, plain: 0, firm: 0 }
     }
 }
 
@@ -167,6 +196,7 @@ impl Survey {
     pub fn see(&mut self, contact: &Contact) {
         self.new &= contact.impulse == [0.0; 2];
         self.plain += usize::from(is_plain(contact));
+        self.firm += usize::from(contact.law[0].rho * YIELDS >= contact.moved[0]);
     }
 }
 
@@ -184,10 +214,12 @@ impl Interior {
     ) -> Effort {
         self.guess.clear();
         self.guess.extend_from_slice(v);
-        let step = Step { bodies: (mass, free), tolerance, enough };
+        let yields = survey.firm * finish::SETTLED <= contacts.len();
+        let step = Step { bodies: (mass, free), tolerance, enough, yields };
         let mut effort = Effort { residual: f64::INFINITY, ..Effort::default() };
-        for Attempt { begins, patience } in LADDER {
-            if begins == Begins::AsBefore && survey.new {
+        for (number, Attempt { begins, patience }) in LADDER.into_iter().enumerate() {
+            let skips = begins == Begins::AsBefore && survey.new;
+            if skips || number == 0 && self.tries.leaves_out() {
                 continue;
             }
             // What is no number begins once more from the guess.
@@ -203,9 +235,15 @@ impl Interior {
             }
             let next = match begins {
                 Begins::AsBefore => self.finish(matrix, &step, contacts, v, (false, patience)),
-                _ => self.inside(matrix, &step, contacts, v, if halves { patience.min(SOON) } else { patience }),
+                _ => {
+                    let patience = if halves { patience.min(finish::MOST) } else { patience };
+                    self.inside(matrix, &step, contacts, v, Attempt { begins, patience })
+                }
             };
             effort = effort.then(next);
+            if number == 0 {
+                self.tries.see(next.residual <= enough);
+            }
             if next.residual <= enough {
                 break;
             }
@@ -221,9 +259,9 @@ impl Interior {
         step: &Step,
         contacts: &[Contact],
         v: &mut [Triple],
-        patience: usize,
+        Attempt { begins, patience }: Attempt,
     ) -> Effort {
-        let Step { bodies, tolerance, enough, .. } = *step;
+        let Step { bodies, tolerance, enough, yields } = *step;
         let mut effort = Effort::default();
         let (mut near, mut least, mut since) = (finish::NEAR * tolerance, f64::INFINITY, 0);
         // Share of the last direction that is gone.
@@ -232,10 +270,13 @@ impl Interior {
             let mut left = self.look(matrix, bodies, contacts, v, Method::Inside { share });
             // What overflows is no number either.
             effort.residual = if left.residual.is_finite() { left.residual } else { f64::NAN };
-            self.begun.get_or_insert(left.residual);
+            let begun = *self.begun.get_or_insert(left.residual);
+            if yields && effort.iterations == 0 {
+                near = near.max(NEARER * begun);
+            }
             effort.converged = left.residual <= tolerance;
             (least, since) = if left.residual <= 0.5 * least { (left.residual, 0) } else { (least, since + 1) };
-            let stays = since >= if left.residual > enough { patience } else { patience.max(NEARLY) };
+            let stays = since >= if left.residual > enough { patience } else { patience.max(finish::MOST) };
             if effort.converged || stays || effort.residual.is_nan() || effort.iterations >= MOST {
                 break;
             }
@@ -250,7 +291,9 @@ impl Interior {
                 left = self.look(matrix, bodies, contacts, v, Method::Inside { share: 0.0 });
             }
             effort.iterations += 1;
-            share = self.direct(matrix, &left, stuck);
+            // What yields may be gone too far with, for as long as that helps.
+            let bold = begins == Begins::AtGuess && since < 2;
+            share = self.direct(matrix, &left, (stuck, bold));
             // Where products vanish before the conditions hold, rounding ends in nothing over nothing.
             if !self.step.iter().flatten().all(|x| x.is_finite()) {
                 effort.residual = f64::NAN;
@@ -362,8 +405,9 @@ impl Interior {
         Whole { residual: worse(residual, unbalance(&self.residual, mass)), products, number, changed }
     }
 
-    /// The direction, into `self.step` and the points, and how far it is gone; `stuck` where the last was hardly gone at all.
-    fn direct(&mut self, matrix: &mut Blocks, left: &Whole, stuck: bool) -> f64 {
+    /// The direction, into `self.step` and the points, and how far it is gone, over what yields whatever its bounds (`bold`); `stuck` where
+    /// the last was hardly gone at all.
+    fn direct(&mut self, matrix: &mut Blocks, left: &Whole, (stuck, bold): (bool, bool)) -> f64 {
         let mean = left.mean();
         self.begin_right_side();
         matrix.factorise_and_solve(&mut self.step, &mut self.work);
@@ -384,9 +428,9 @@ impl Interior {
         self.begin_right_side();
         matrix.solve(&mut self.step, &mut self.work);
         let mut course = Course::begin(0.0);
-        self.plain.turn(&self.step, target, &mut course);
-        self.usual.turn(&self.step, target, &mut course);
-        self.limited.turn(&self.step, target, &mut course);
+        self.plain.turn(&self.step, (target, bold), &mut course);
+        self.usual.turn(&self.step, (target, bold), &mut course);
+        self.limited.turn(&self.step, (target, bold), &mut course);
         course.share
     }
 

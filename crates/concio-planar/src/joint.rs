@@ -204,6 +204,11 @@ impl Law {
         falls || self.bond.is_some()
     }
 
+    /// Whether its friction at rest is some other than that of motion.
+    pub(crate) fn eases(&self) -> bool {
+        self.friction.is_some_and(|friction| friction.static_ != friction.dynamic)
+    }
+
     /// Stiffness across of the joint while it is pressed [N/m]; 0 of a rigid one.
     pub fn normal_stiffness(&self) -> f64 {
         let (both, press) = self.springs();

@@ -15,6 +15,7 @@ use crate::blocks::{Slot, Triple};
 use crate::body::Body;
 use crate::contact::{Contact, Effort, worse};
 use crate::crack::{self, Crack, Spot};
+use crate::interior::Tries;
 use crate::joint::{Friction, Law, Part, Point, Start, slides};
 use crate::order::Orders;
 use crate::shape::{Place, Polygon, Touch, touches, touches_base};
@@ -315,6 +316,7 @@ pub struct Kept {
     shakes: [f64; 2],
     strains: Vec<Strain>,
     rings_until: f64,
+    tries: Tries,
 }
 
 /// What the base moved in a step without inertia: Σ m Δx [kg m], and the work of the forces that acted at the ends of its parts [J].
@@ -418,9 +420,10 @@ pub struct Motion {
     /// Ends held back in rocking impacts, whose contacts follow those; whether a joint has any.
     holds: Vec<Hold>,
     rocks: bool,
-    /// Whether some joint can be crushed, and whether some has a force that falls at once.
+    /// Whether some joint can be crushed, whether some has a force that falls at once, and whether friction at rest is some other than of motion.
     crushes: bool,
     sudden: bool,
+    eases: bool,
     /// How much of the change of forces in the step was over when such a force first fell in it, if one did, and what was borne at the step's end, as in
     /// [`Motion::breaks`].
     breaks_at: Option<f64>,
@@ -488,6 +491,7 @@ impl Motion {
             rocks: system.links.iter().map(|link| &link.law).chain([&system.other]).any(|law| law.rocking().is_some()),
             crushes: system.links.iter().any(|link| link.law.crushing.is_finite()),
             sudden: system.links.iter().map(|link| &link.law).chain([&system.other]).any(Law::is_sudden),
+            eases: system.links.iter().map(|link| &link.law).chain([&system.other]).any(Law::eases),
             breaks_at: None,
             worn: false,
             instant: None,
@@ -796,7 +800,7 @@ impl Motion {
     /// Where a slide that friction of motion held back turns round, friction at rest holds it: whether there is such a point, which is to be solved
     /// again. Rest in between two slides would be a matter of chance otherwise.
     fn turn(&mut self) -> bool {
-        if self.setting.still {
+        if self.setting.still || !self.eases {
             return false;
         }
         let mut turns = false;
@@ -1314,6 +1318,7 @@ impl Motion {
             shakes: self.shakes,
             strains: self.strains.clone(),
             rings_until: self.rings_until,
+            tries: self.solver.tries(),
         }
     }
 
@@ -1333,13 +1338,14 @@ impl Motion {
             });
         if fits {
             let Kept { places, velocities, time, account, counters, pairs, .. } = kept;
-            let Kept { looked, seen, pull, borne, shakes, strains, rings_until, .. } = kept;
+            let Kept { looked, seen, pull, borne, shakes, strains, rings_until, tries, .. } = kept;
             (self.places, self.velocities, self.time) = (places, velocities, time);
             (self.account, self.counters, self.pairs) = (account, counters, pairs);
             (self.looked, self.seen, self.strains) = (looked, seen, strains);
             (self.pull, self.borne, self.shakes, self.rings_until) = (pull, borne, shakes, rings_until);
             self.pairs.iter_mut().filter_map(|pair| pair.crack.as_mut()).for_each(Crack::reserve);
             self.couple();
+            self.solver.go_on(tries);
         }
         fits
     }

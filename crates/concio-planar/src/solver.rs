@@ -2,7 +2,7 @@
 
 use crate::blocks::{Blocks, Triple};
 use crate::contact::{Contact, Effort};
-use crate::interior::{Interior, Survey};
+use crate::interior::{Interior, Survey, Tries};
 use crate::order::Orders;
 
 /// Solves steps of bodies whose pairs stay the same.
@@ -27,6 +27,16 @@ impl Solver {
     /// The matrix, for the slots of its pairs.
     pub fn matrix(&self) -> &Blocks {
         &self.matrix
+    }
+
+    /// How attempts fared in the steps before, on which it depends how the next are solved.
+    pub(crate) fn tries(&self) -> Tries {
+        self.interior.tries
+    }
+
+    /// Goes on as after those.
+    pub(crate) fn go_on(&mut self, tries: Tries) {
+        self.interior.tries = tries;
     }
 
     /// Solves a step to `tolerance` [m/s], or leaves `enough` [m/s] where it does not come nearer. `v` holds a guess on entry, contacts the

@@ -3,7 +3,7 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use super::point::{Course, Kind, Laws, Left, Point, View, Way};
-use super::{INSIDE, Method, Sums};
+use super::{Method, Sums};
 use crate::blocks::Triple;
 use crate::contact::{Contact, Rows};
 
@@ -119,25 +119,25 @@ impl<const N: usize> Group<N> {
         let each = self.points.iter().zip(&self.views).zip(&mut self.second).zip(&self.rows);
         for (((point, view), second), rows) in each {
             let way = point.way(view, rows.change(step), view.right, 0.0, &[0.0; N]);
-            course.meet(point, &way, 1.0);
+            course.meet(point, &way, false);
             *second = std::array::from_fn(|i| way.s[i] * way.lambda[i]);
             rows.push(push, point.aim(view, 0.0, second));
             rows.push(rise, point.rise(view));
         }
     }
 
-    /// The direction of velocities `step`, to products of `target`, and how far it may be gone.
-    pub fn turn(&mut self, step: &[Triple], target: f64, course: &mut Course) {
-        Arch::new().dispatch(Turn { group: self, step, target, course });
+    /// [`super::packs::Packs::turn`].
+    pub fn turn(&mut self, step: &[Triple], aim: (f64, bool), course: &mut Course) {
+        Arch::new().dispatch(Turn { group: self, step, aim, course });
     }
 
     #[inline(always)]
-    fn turn_each(&mut self, step: &[Triple], target: f64, course: &mut Course) {
+    fn turn_each(&mut self, step: &[Triple], (target, bold): (f64, bool), course: &mut Course) {
         let each = self.points.iter().zip(&self.views).zip(&self.second).zip(&mut self.ways).zip(&self.rows);
         for ((((point, view), second), way), rows) in each {
             let right = point.aim(view, target, second);
             *way = point.way(view, rows.change(step), right, target, second);
-            course.meet(point, way, INSIDE);
+            course.meet(point, way, bold);
         }
     }
 
@@ -282,7 +282,7 @@ impl<const N: usize> WithSimd for Predict<'_, N> {
 struct Turn<'a, const N: usize> {
     group: &'a mut Group<N>,
     step: &'a [Triple],
-    target: f64,
+    aim: (f64, bool),
     course: &'a mut Course,
 }
 
@@ -291,6 +291,6 @@ impl<const N: usize> WithSimd for Turn<'_, N> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.group.turn_each(self.step, self.target, self.course);
+        self.group.turn_each(self.step, self.aim, self.course);
     }
 }

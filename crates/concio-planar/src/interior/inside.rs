@@ -4,10 +4,10 @@ use std::array::from_fn;
 
 use pulp::Simd;
 
+use super::Sums;
 use super::lanes::{Lanes, PACK, Pack, Real};
 use super::lever::{ALL, Arms, Bodies, Joined, PUSHES};
 use super::point::{Course, Kind, Laws, Left, Point, View, Way};
-use super::{INSIDE, Sums};
 use crate::blocks::{Slot, Triple};
 use crate::contact::Contact;
 
@@ -375,7 +375,7 @@ impl Inside {
                 let view = strays.view(&point, &given.friction, (simd, part));
                 let right = point.aim(&view, zero, &[zero; N]);
                 let way = point.way(&view, arms.change(parts(simd, &du, part)), right, zero, &[zero; N]);
-                courses[part].meet(&point, &way, zero.alike(1.0));
+                courses[part].meet(&point, &way, false);
                 let mut own = [zero; N];
                 for i in 0..N {
                     own[i] = way.s[i] * way.lambda[i];
@@ -400,9 +400,16 @@ impl Inside {
     }
 
     #[inline(always)]
-    pub fn turn<S: Simd>(&mut self, simd: S, joints: &Joints, step: &[Triple], target: f64, course: &mut Course) {
+    pub fn turn<S: Simd>(
+        &mut self,
+        simd: S,
+        joints: &Joints,
+        step: &[Triple],
+        (target, bold): (f64, bool),
+        course: &mut Course,
+    ) {
         let zero = Lanes::<S>::all(simd, 0.0);
-        let (target, inside) = (zero.alike(target), zero.alike(INSIDE));
+        let target = zero.alike(target);
         let mut courses = [Course::begin(zero); PACK];
         let points = self.given.iter().zip(&self.p).zip(&self.bounds).zip(&self.strays).zip(&self.second);
         for ((((((given, p), bounds), strays), second), ways), bodies) in points.zip(&mut self.ways).zip(&joints.bodies)
@@ -414,7 +421,7 @@ impl Inside {
                 let second = parts(simd, second, part);
                 let right = point.aim(&view, target, &second);
                 let way = point.way(&view, arms.change(parts(simd, &du, part)), right, target, &second);
-                courses[part].meet(&point, &way, inside);
+                courses[part].meet(&point, &way, bold);
                 ways.put(&way, part);
             }
         }

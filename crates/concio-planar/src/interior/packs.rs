@@ -149,9 +149,9 @@ impl Packs {
         Arch::new().dispatch(Predict { packs: self, step, pushes, course });
     }
 
-    /// The direction of velocities `step`, to products of `target`, and how far it may be gone.
-    pub fn turn(&mut self, step: &[Triple], target: f64, course: &mut Course) {
-        Arch::new().dispatch(Turn { packs: self, step, target, course });
+    /// The direction of velocities `step`, to products of a target, and how far it may be gone, over what yields whatever its bounds if `aim` says so.
+    pub fn turn(&mut self, step: &[Triple], aim: (f64, bool), course: &mut Course) {
+        Arch::new().dispatch(Turn { packs: self, step, aim, course });
     }
 
     /// All of what Newton's method says is to be gone.
@@ -263,7 +263,7 @@ impl WithSimd for Predict<'_> {
 struct Turn<'a> {
     packs: &'a mut Packs,
     step: &'a [Triple],
-    target: f64,
+    aim: (f64, bool),
     course: &'a mut Course,
 }
 
@@ -273,6 +273,6 @@ impl WithSimd for Turn<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Packs { joints, inside, .. } = self.packs;
-        inside.turn(simd, joints, self.step, self.target, self.course)
+        inside.turn(simd, joints, self.step, self.aim, self.course)
     }
 }

@@ -1,7 +1,7 @@
 //! The laws of a contact about an iterate: of one, or of as many side by side as a register holds.
 
 use super::lanes::Real;
-use super::{GRIP, SHARE};
+use super::{GRIP, KEPT, SHARE, YIELDS};
 use crate::contact::{Contact, Status};
 use crate::interior::CRACK;
 
@@ -163,13 +163,16 @@ impl<T: Real> Course<T> {
         Course { share: zero.alike(1.0), growth: [zero; 2] }
     }
 
-    /// Takes a point's part of the direction up, which is gone `keep` of the way to the boundary at most.
+    /// Takes a point's part of the direction up, which is gone to the boundary at most, or, where the point yields, as far as others may (`bold`).
     #[inline(always)]
-    pub fn meet<const N: usize>(&mut self, point: &Point<N, T>, way: &Way<N, T>, keep: T) {
+    pub fn meet<const N: usize>(&mut self, point: &Point<N, T>, way: &Way<N, T>, bold: bool) {
+        let one = point.mass.alike(1.0);
+        let firm = if bold { (point.soft[0] * point.mass).at_most(one.alike(YIELDS)) } else { one.at_most(one) };
+        let reach = T::pick(firm, one, one.alike(f64::INFINITY));
         for i in 0..N {
             let (s, l, ds, dl) = (point.s[i], point.lambda[i], way.s[i], way.lambda[i]);
-            self.stop(s, ds, keep);
-            self.stop(l, dl, keep);
+            self.stop(s, ds, reach);
+            self.stop(l, dl, reach);
             self.growth[0] = self.growth[0] + (s * dl + l * ds);
             self.growth[1] = self.growth[1] + ds * dl;
         }
@@ -177,8 +180,8 @@ impl<T: Real> Course<T> {
 
     /// Most bounds are farther off than the nearest so far: only those that are not are divided by.
     #[inline(always)]
-    fn stop(&mut self, x: T, change: T, keep: T) {
-        let room = -keep * x;
+    fn stop(&mut self, x: T, change: T, reach: T) {
+        let room = -reach * x;
         let passes = (change * self.share).below(room);
         if self.share.any(passes) {
             self.share = T::pick(passes, room / change, self.share);
@@ -283,14 +286,16 @@ impl<const N: usize, T: Real> Point<N, T> {
         }
     }
 
+    /// Goes a share of the direction, with distances and multipliers that stay above 0: by what they are astray then the next mends.
     #[inline(always)]
     pub fn go(&mut self, share: T, way: &Way<N, T>) {
+        let kept = share.alike(KEPT);
         for k in 0..2 {
             self.p[k] = self.p[k] + share * way.p[k];
         }
         for i in 0..N {
-            self.s[i] = self.s[i] + share * way.s[i];
-            self.lambda[i] = self.lambda[i] + share * way.lambda[i];
+            self.s[i] = (self.s[i] + share * way.s[i]).larger(kept * self.s[i]);
+            self.lambda[i] = (self.lambda[i] + share * way.lambda[i]).larger(kept * self.lambda[i]);
         }
     }
 
