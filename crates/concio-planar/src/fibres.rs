@@ -2,6 +2,10 @@
 //!
 //! The contact points of a zone say what it bears across. Along, what opens lets go what it bore, what closes begins with nothing, and where pressure falls to 0
 //! some of a joint slides under any shear. Points that move with the zones cannot tell which of it that was; fibres that stay where they are can.
+//!
+//! (P13)  τ = clamp(k_t (s − a), ±μ p),   a = s − τ/k_t
+//!
+//! with the slide s of the joint there, the pressure p and the anchor a, the slide at which the fibre bears nothing.
 
 use serde::{Deserialize, Serialize};
 
