@@ -12,9 +12,11 @@ use crate::contact::{Contact, Effort};
 pub(super) const NEAR: f64 = 1e4;
 /// What is left then, over that, before it begins again.
 pub(super) const AGAIN: f64 = 0.1;
-/// Iterations at most, and patience of interior points with what is left already so little that it may stay, and at most in a step that may be halved; and those after which each has to leave less than the last, or let fewer contacts do something else than all before: in
-/// a large wall what is left is that of one place, and rises there while the others settle.
+/// Iterations at most. As many is the patience of interior points with what is left already so little that it may stay, and at most in a step that may
+/// be halved.
 pub(super) const MOST: usize = 12;
+/// Iterations after which each has to leave less than the last, or let fewer contacts do something else than all before: in a large wall what is left
+/// is that of one place, and rises there while the others settle.
 const FREELY: usize = 3;
 /// No more than one of so many contacts may do something else than in the last look once patience is over: where more do, hardly any is solved.
 pub(super) const SETTLED: usize = 10;
