@@ -246,6 +246,34 @@ duration = "60 s"
     }
 }
 
+/// A stone between the base and a level beam whose edges crush under a shear of 0.8 of its weight and load sticks: μ is 2. It does in short steps too.
+#[test]
+fn what_crushes_under_shear_sticks() {
+    let stone = block(
+        r#"mortar = { bed = 0, head = 0 }
+[joint]
+bed = { law = "rigid", compressive_strength = "0.5 MPa" }
+head = { law = "none" }
+friction = { law = "coulomb", static = 2 }
+[load]
+top = { force = "60 kN" }
+beam = "driven"
+beam_rotation = "fixed"
+[motion]
+quasi_static = true
+top = { path = { displacements = ["3 mm", "-1 mm"], speed = "0.5 mm/s" } }
+"#,
+    );
+    let stone = stone.replace("length = 0.5, height = 0.5, thickness = 1", "length = 1, height = 1, thickness = 0.5");
+    for step in ["20 ms", "0.5 ms"] {
+        let (_, outcome) = ran(&format!("{stone}[solver]\nstep = \"{step}\"\n"));
+        let subject = format!("Crushing: stone between base and level beam sheared by 0.8 N at μ = 2, steps of {step}");
+        let fibres = "800 fibres without inertia";
+        agrees!(format!("{subject}; energy of crushing"), fibres, "J", outcome.energies.bond, 100.9, 1e-2);
+        agrees!(format!("{subject}; energy of friction"), fibres, "J", outcome.energies.friction, 0.95, abs: 0.3);
+    }
+}
+
 /// Breaking in shear takes G_f^II A under any pressure, and friction μ N takes the place of what the strength c A + N tan φ loses on the way (B4), (B5).
 #[test]
 fn a_full_break_takes_its_energy_under_any_pressure() {
