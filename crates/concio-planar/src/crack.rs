@@ -1182,15 +1182,17 @@ impl Crack {
         let Sheared { mut whole, mut energy } = fibres.follow(along, |x| {
             let ends = [(x - HALF).max(0.0), (x + HALF).min(1.0)];
             let deep = |x: f64| crushed.get((x * last).round() as usize).copied().unwrap_or(0.0);
-            let [sunk, then] = [line, &*was].map(|line| ends.map(|x| -between(line, x)[0] - deep(x)));
-            let pressed = above(sunk)[0];
             // What acts without inertia acts at the end of the step, else in its middle.
-            let [part, sprung] = above(if still { sunk } else { [0, 1].map(|k| 0.5 * (sunk[k] + then[k])) });
-            let damped = part * damping * (parting[0] + x * (parting[1] - parting[0]));
+            let sunk = ends.map(|x| {
+                let [now, then] = [between(line, x)[0], between(was, x)[0]];
+                -if still { now } else { 0.5 * (now + then) } - deep(x)
+            });
+            let [pressed, sprung] = above(sunk);
+            let damped = pressed * damping * (parting[0] + x * (parting[1] - parting[0]));
             let force = stiffness * sprung;
             let force = if parting == [0.0; 2] || force == 0.0 { force } else { (force - damped).max(0.0) };
-            let most = mu(x) * force.min(part * law.crushing);
-            Stands { slide: between(line, x)[1], most, pressed: [above(then)[0], pressed] }
+            let most = mu(x) * force.min(pressed * law.crushing);
+            Stands { slide: between(line, x)[1], most, pressed }
         });
         // Friction took this of points that were pressed less in the step than at its end.
         let rubbed = std::mem::take(&mut fibres.rubbed);
@@ -1200,7 +1202,8 @@ impl Crack {
             fibres.weaken(part, |x| between(line, x)[1]);
             (whole, energy) = (part * whole, most);
         }
-        self.spread(law, points, (still, parting), whole);
+        // Without inertia nothing swings, whatever the points store.
+        self.spread(law, points, (still, parting), [whole, if still { f64::INFINITY } else { energy }]);
         let [_, keeps] = self.friction_borne(law, points);
         self.fibres.uneven = energy - keeps;
         before - energy
@@ -1229,14 +1232,36 @@ impl Crack {
         spot.rubbing * law.friction.map_or(0.0, |friction| friction.of(point.speed, still)) * pressed
     }
 
-    /// Has its points bear `whole` along the joint [N], each the same part of what friction lets it: none slides before the joint does.
-    fn spread(&self, law: &Law, points: &mut [Point], how: (bool, [f64; 2]), whole: f64) {
+    /// Has its points bear `whole` along the joint [N], or what stores no more than `energy` [J]: each as near as that goes to the same part of what friction lets it, so
+    /// that none slides before the joint does.
+    fn spread(&self, law: &Law, points: &mut [Point], how: (bool, [f64; 2]), [whole, energy]: [f64; 2]) {
+        self.share_friction(law, points, how, [whole, energy]);
+        let along = law.breaking_stiffness();
         let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
         let all: f64 = dry().map(|spot| self.limit(law, (spot, &points[spot.point]), how)).sum();
-        let part = if all > 0.0 { (whole / all).clamp(-1.0, 1.0) } else { 0.0 };
+        let borne: f64 = dry().map(|spot| points[spot.point].bearing).sum();
+        let part = if all > 0.0 { (borne / all).clamp(-1.0, 1.0) } else { 0.0 };
+        let mut ways = [0.0; POINTS];
+        let mut sums = [0.0; 3];
         for spot in dry() {
-            let point = &mut points[spot.point];
-            point.bearing = part * self.limit(law, (spot, point), how);
+            let point = &points[spot.point];
+            let (from, k) = (point.bearing, spot.share * along);
+            let way = part * self.limit(law, (spot, point), how) - from;
+            ways[spot.point] = way;
+            sums = [sums[0] + way * way / k, sums[1] + from * way / k, sums[2] + from * from / k];
+        }
+        let [square, middle, rest] = sums;
+        // (rest + 2 middle x + square x²)/2 = energy.
+        let room = 2.0 * energy - rest;
+        let most = if square + 2.0 * middle <= room {
+            1.0
+        } else if room > 0.0 && square > 0.0 {
+            ((middle * middle + square * room).sqrt() - middle) / square
+        } else {
+            0.0
+        };
+        for spot in dry() {
+            points[spot.point].bearing += most * ways[spot.point];
         }
     }
 

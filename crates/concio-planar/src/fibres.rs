@@ -17,6 +17,8 @@ pub(crate) const FIBRES: usize = 65;
 pub(crate) struct Fibres {
     /// Slide at which each bears nothing [m]; none of a joint that is rigid along.
     anchors: Vec<f64>,
+    /// The part of each that was pressed, 0 … 1.
+    pressed: Vec<f64>,
     /// Energy in them beyond that of the points [J].
     pub uneven: f64,
     /// What friction took of the points in the step [J].
@@ -32,8 +34,8 @@ pub(crate) struct Stands {
     pub slide: f64,
     /// What friction bears at most, over all of the joint [N].
     pub most: f64,
-    /// The part that is pressed, 0 … 1, a step before and now.
-    pub pressed: [f64; 2],
+    /// The part that is pressed, 0 … 1.
+    pub pressed: f64,
 }
 
 /// What fibres bear along [N] and store [J].
@@ -60,7 +62,8 @@ pub(crate) fn above([from, to]: [f64; 2]) -> [f64; 2] {
 impl Fibres {
     /// Of a joint that bears nothing yet.
     pub fn new(there: bool) -> Self {
-        Fibres { anchors: vec![0.0; if there { FIBRES } else { 0 }], uneven: 0.0, rubbed: 0.0, sliding: false }
+        let number = if there { FIBRES } else { 0 };
+        Fibres { anchors: vec![0.0; number], pressed: vec![0.0; number], uneven: 0.0, rubbed: 0.0, sliding: false }
     }
 
     pub fn are_there(&self) -> bool {
@@ -69,12 +72,14 @@ impl Fibres {
 
     /// Whether there are as many as a joint needs.
     pub fn fit(&self, there: bool) -> bool {
-        self.anchors.len() == if there { FIBRES } else { 0 }
+        let number = if there { FIBRES } else { 0 };
+        self.anchors.len() == number && self.pressed.len() == number
     }
 
     /// They bear nothing where they are; returns what they stored beyond the points [J].
     pub fn let_go(&mut self) -> f64 {
         self.anchors.fill(0.0);
+        self.pressed.fill(0.0);
         (self.sliding, self.rubbed) = (false, 0.0);
         std::mem::take(&mut self.uneven)
     }
@@ -82,6 +87,7 @@ impl Fibres {
     /// Begins with the slide at which each bears nothing, by its place 0 … 1.
     pub fn begin(&mut self, anchor: impl Fn(f64) -> f64) {
         (self.uneven, self.rubbed) = (0.0, 0.0);
+        self.pressed.fill(1.0);
         for (n, own) in self.anchors.iter_mut().enumerate() {
             *own = anchor(place(n));
         }
@@ -91,8 +97,9 @@ impl Fibres {
     /// friction lets it slides.
     pub fn follow(&mut self, stiffness: f64, at: impl Fn(f64) -> Stands) -> Sheared {
         let mut sheared = Sheared::default();
-        for (n, anchor) in self.anchors.iter_mut().enumerate() {
-            let Stands { slide, most, pressed: [before, pressed] } = at(place(n));
+        for (n, (anchor, before)) in self.anchors.iter_mut().zip(&mut self.pressed).enumerate() {
+            let Stands { slide, most, pressed } = at(place(n));
+            let before = std::mem::replace(before, pressed);
             // What has just closed bears nothing yet.
             let stretch = (*anchor - slide) * if pressed > before { before / pressed } else { 1.0 };
             let k = pressed * stiffness;

@@ -274,6 +274,35 @@ top = { path = { displacements = ["3 mm", "-1 mm"], speed = "0.5 mm/s" } }
     }
 }
 
+/// The same in motion without any damping: what swings dies down, friction takes what it does without inertia, and nothing comes of nothing.
+#[test]
+fn what_crushes_under_shear_in_motion_calms_down() {
+    let pushed = |still: bool| {
+        let stone = block(&format!(
+            r#"mortar = {{ bed = 0, head = 0 }}
+[joint]
+bed = {{ law = "rigid", compressive_strength = "3 MPa", damping_ratio = 0 }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = 0.8 }}
+[load]
+top = {{ force = "300 kN" }}
+beam = "driven"
+beam_rotation = "fixed"
+[motion]
+quasi_static = {still}
+top = {{ path = {{ displacements = ["5 mm"], speed = "2 mm/s" }} }}
+"#
+        ));
+        ran(&stone.replace("length = 0.5, height = 0.5, thickness = 1", "length = 0.9, height = 1.8, thickness = 0.4"))
+            .1
+    };
+    let [still, moving] = [true, false].map(pushed);
+    let [rests, moves] = [&still, &moving].map(|outcome| outcome.energies);
+    assert!((rests.bond / moves.bond - 1.0).abs() < 0.01, "{} J and {} J", rests.bond, moves.bond);
+    assert!((rests.friction - moves.friction).abs() < 1.0, "{} J and {} J", rests.friction, moves.friction);
+    assert!(moves.impact < 0.01 * moves.bond, "{} J", moves.impact);
+}
+
 /// Breaking in shear takes G_f^II A under any pressure, and friction μ N takes the place of what the strength c A + N tan φ loses on the way (B4), (B5).
 #[test]
 fn a_full_break_takes_its_energy_under_any_pressure() {
