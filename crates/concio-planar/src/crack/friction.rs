@@ -1,0 +1,195 @@
+//! What a joint bears along where it has no bond: what its points take over from its fibres, and what friction takes.
+
+use super::{Crack, DRY, POINTS, Spot, Worn, between};
+use crate::fibres::{HALF, Sheared, Stands, above};
+use crate::joint::{Law, Part, Point};
+
+impl Crack {
+    /// Takes note of what friction took of one of its points in the step [J].
+    pub(crate) fn rubs(&mut self, taken: f64) {
+        if self.is_gone() && self.fibres.are_there() {
+            self.fibres.rubbed += taken;
+        }
+    }
+
+    /// Lets what its friction does not hold slide where its points stand as they did; what that takes.
+    pub(super) fn rub(&mut self, law: &Law, points: &mut [Point], how: (&[[f64; 2]; 2], bool, [f64; 2])) -> Worn {
+        if !(self.fibres.are_there() && self.is_gone()) {
+            return Worn::default();
+        }
+        let [_, stored] = self.friction_borne(law, points);
+        Worn { friction: self.follow_fibres(law, points, how, stored), ..Worn::default() }
+    }
+
+    /// Friction at rest is overcome where all that is pressed slides, and comes back where all of it rests: a joint slides as one.
+    fn start_and_stop(&mut self, points: &mut [Point]) {
+        let Crack { fibres, spots, .. } = self;
+        let dry = || spots.iter().filter(|spot| spot.part == Part::Dry && spot.rubbing > 0.0).map(|spot| spot.point);
+        let speeds = || dry().map(|k| &points[k]).filter(|p| p.gap + p.crushed < 0.0).map(|p| p.speed);
+        let fastest = speeds().fold(0.0, f64::max);
+        fibres.sliding &= fastest > 0.0;
+        fibres.sliding |= fastest > 0.0 && speeds().all(|speed| speed > 0.0);
+        for k in dry() {
+            points[k].speed = match fibres.sliding {
+                true if points[k].speed == 0.0 => fastest,
+                true => points[k].speed,
+                false => 0.0,
+            };
+        }
+    }
+
+    /// Takes the fibres to where its ends are as far apart as `line` says, and has its points bear what they do; what friction takes of `stored` of the points and
+    /// what fibres stored beyond [J].
+    pub(super) fn follow_fibres(
+        &mut self,
+        law: &Law,
+        points: &mut [Point],
+        (line, still, parting): (&[[f64; 2]; 2], bool, [f64; 2]),
+        stored: f64,
+    ) -> f64 {
+        let (along, before) = (law.breaking_stiffness(), stored + self.fibres.uneven);
+        self.start_and_stop(points);
+        let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
+        let mut mus = [[f64::NAN; 2]; DRY];
+        dry().zip(&mut mus).for_each(|(spot, mu)| {
+            *mu = [spot.at, law.friction.map_or(0.0, |friction| friction.of(points[spot.point].speed, still))];
+        });
+        let numbers = || mus.iter().filter(|mu| !mu[0].is_nan()).map(|mu| mu[1]);
+        let [least, largest] = [numbers().fold(f64::INFINITY, f64::min), numbers().fold(0.0, f64::max)];
+        let mu = |x: f64| {
+            if least == largest {
+                return least;
+            }
+            let near = |mu: &&[f64; 2]| (mu[0] - x).abs();
+            let there = mus.iter().filter(|mu| !mu[0].is_nan());
+            there.min_by(|a, b| near(a).total_cmp(&near(b))).map_or(0.0, |mu| mu[1])
+        };
+        let (stiffness, damping) = (law.normal_stiffness(), law.normal_damping());
+        let last = self.crushed.len().saturating_sub(1) as f64;
+        let Crack { fibres, crushed, was, .. } = self;
+        let Sheared { mut whole, mut energy } = fibres.follow(along, |x| {
+            let ends = [(x - HALF).max(0.0), (x + HALF).min(1.0)];
+            let deep = |x: f64| crushed.get((x * last).round() as usize).copied().unwrap_or(0.0);
+            // What acts without inertia acts at the end of the step, else in its middle.
+            let sunk = ends.map(|x| {
+                let [now, then] = [between(line, x)[0], between(was, x)[0]];
+                -if still { now } else { 0.5 * (now + then) } - deep(x)
+            });
+            let [pressed, sprung] = above(sunk);
+            let damped = pressed * damping * (parting[0] + x * (parting[1] - parting[0]));
+            let force = stiffness * sprung;
+            let force = if parting == [0.0; 2] || force == 0.0 { force } else { (force - damped).max(0.0) };
+            let most = mu(x) * force.min(pressed * law.crushing);
+            Stands { slide: between(line, x)[1], most, pressed }
+        });
+        // Friction took this of points that were pressed less in the step than at its end.
+        let rubbed = std::mem::take(&mut fibres.rubbed);
+        let most = (before + if still { rubbed } else { 0.0 }).max(0.0);
+        if energy > most {
+            let part = (most / energy).sqrt();
+            fibres.weaken(part, |x| between(line, x)[1]);
+            (whole, energy) = (part * whole, most);
+        }
+        // Without inertia nothing swings, whatever the points store.
+        self.spread(law, points, (still, parting), [whole, if still { f64::INFINITY } else { energy }]);
+        let [_, keeps] = self.friction_borne(law, points);
+        self.fibres.uneven = energy - keeps;
+        before - energy
+    }
+
+    /// What has cracked bears along the joint, and what its springs along store [N, J].
+    pub(super) fn friction_borne(&self, law: &Law, points: &[Point]) -> [f64; 2] {
+        let along = law.breaking_stiffness();
+        let dry = self.spots.iter().filter(|spot| spot.part == Part::Dry && along > 0.0);
+        dry.fold([0.0; 2], |[whole, energy], spot| {
+            let bearing = points[spot.point].bearing;
+            [whole + bearing, energy + 0.5 * bearing * bearing / (spot.share * along)]
+        })
+    }
+
+    /// What friction lets a point bear [N].
+    fn limit(&self, law: &Law, (spot, point): (&Spot, &Point), (still, parting): (bool, [f64; 2])) -> f64 {
+        let sprung = spot.share * law.normal_stiffness() * (-point.gap - point.crushed).max(0.0);
+        // What friction bore against the dashpots' pressure too would be lost at each step, however short.
+        let damped = spot.share * law.normal_damping() * (parting[0] + spot.at * (parting[1] - parting[0]));
+        let pressed = if parting == [0.0; 2] || sprung == 0.0 {
+            sprung
+        } else {
+            (sprung - damped).clamp(0.0, (spot.share + spot.edge) * law.crushing)
+        };
+        spot.rubbing * law.friction.map_or(0.0, |friction| friction.of(point.speed, still)) * pressed
+    }
+
+    /// Has its points bear `whole` along the joint [N], or what stores no more than `energy` [J]: each as near as that goes to the same part of what friction lets it, so
+    /// that none slides before the joint does.
+    fn spread(&self, law: &Law, points: &mut [Point], how: (bool, [f64; 2]), [whole, energy]: [f64; 2]) {
+        self.share_friction(law, points, how, [whole, energy]);
+        let along = law.breaking_stiffness();
+        let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
+        let all: f64 = dry().map(|spot| self.limit(law, (spot, &points[spot.point]), how)).sum();
+        let borne: f64 = dry().map(|spot| points[spot.point].bearing).sum();
+        let part = if all > 0.0 { (borne / all).clamp(-1.0, 1.0) } else { 0.0 };
+        let mut ways = [0.0; POINTS];
+        let mut sums = [0.0; 3];
+        for spot in dry() {
+            let point = &points[spot.point];
+            let (from, k) = (point.bearing, spot.share * along);
+            let way = part * self.limit(law, (spot, point), how) - from;
+            ways[spot.point] = way;
+            sums = [sums[0] + way * way / k, sums[1] + from * way / k, sums[2] + from * from / k];
+        }
+        let [square, middle, rest] = sums;
+        // (rest + 2 middle x + square x²)/2 = energy.
+        let room = 2.0 * energy - rest;
+        let most = if square + 2.0 * middle <= room {
+            1.0
+        } else if room > 0.0 && square > 0.0 {
+            ((middle * middle + square * room).sqrt() - middle) / square
+        } else {
+            0.0
+        };
+        for spot in dry() {
+            points[spot.point].bearing += most * ways[spot.point];
+        }
+    }
+
+    /// Has what has cracked bear `whole` along the joint [N], or what stores no more than `energy` [J]: all its points stretched alike, those that
+    /// friction lets.
+    pub(super) fn share_friction(
+        &self,
+        law: &Law,
+        points: &mut [Point],
+        (still, parting): (bool, [f64; 2]),
+        [whole, energy]: [f64; 2],
+    ) {
+        let along = law.breaking_stiffness();
+        let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry && along > 0.0);
+        let (mut rest, mut held, mut slides) =
+            (whole, dry().map(|spot| spot.share * along).sum::<f64>(), [false; POINTS]);
+        loop {
+            let stretch = if held > 0.0 { rest / held } else { 0.0 };
+            let mut settled = true;
+            for spot in dry() {
+                if slides[spot.point] {
+                    continue;
+                }
+                let point = &mut points[spot.point];
+                let most = self.limit(law, (spot, point), (still, parting));
+                point.bearing = stretch * spot.share * along;
+                if point.bearing.abs() > most {
+                    point.bearing = most.copysign(stretch);
+                    (rest, held) = (rest - point.bearing, held - spot.share * along);
+                    (slides[spot.point], settled) = (true, false);
+                }
+            }
+            if settled {
+                break;
+            }
+        }
+        let [_, stored] = self.friction_borne(law, points);
+        if stored > energy.max(0.0) {
+            let part = (energy.max(0.0) / stored).sqrt();
+            dry().for_each(|spot| points[spot.point].bearing *= part);
+        }
+    }
+}
