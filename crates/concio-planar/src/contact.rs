@@ -112,6 +112,13 @@ impl Rows {
         u
     }
 
+    /// The speed at which the two would approach if each went its fastest, with velocities as large as `v` [m/s].
+    fn fastest(&self, v: &[Triple]) -> f64 {
+        let of =
+            |side: usize, body: u32| (0..3).map(|k| (self.normal[side][k] * v[body as usize][k]).abs()).sum::<f64>();
+        of(1, self.b) + if self.a == BASE { 0.0 } else { of(0, self.a) }
+    }
+
     /// Adds what impulses do to both bodies.
     #[inline(always)]
     pub fn push(&self, balance: &mut [Triple], p: [f64; 2]) {
@@ -173,7 +180,13 @@ pub struct Contact {
     pub impulse: [f64; 2],
     /// What it does.
     pub status: Status,
+    /// Whether it is open too far to bear anything in the step, by what is known before.
+    pub(crate) apart: bool,
 }
+
+/// By how many times the speed at which its bodies could approach at their fastest a contact may be too far open to bear, and be left out. With half of it one step in 28
+/// of a falling façade is solved again as something closed all the same, a wall of rigid stones that rocks takes 8 % more iterations; with twice as much a fifth fewer are left out.
+const APART: f64 = 4.0;
 
 impl Contact {
     /// Of a body with another, or with the base, that bore `impulse` [N s] before and has no law yet. Derivatives of the parting and
@@ -213,6 +226,7 @@ impl Contact {
             moved,
             impulse,
             status: Status::Open,
+            apart: false,
         }
     }
 
@@ -233,6 +247,21 @@ impl Contact {
     pub fn velocity(&self, v: &[Triple]) -> [f64; 2] {
         let change = self.rows.change(v);
         [change[0] + self.drift[0], change[1] + self.drift[1]]
+    }
+
+    /// Says whether it is open so far that it bears nothing at velocities near `v` and `free`, those without contact [m/s].
+    pub(crate) fn see_apart(&mut self, v: &[Triple], free: &[Triple]) {
+        let alone = self.spring == [Linear::default(); 2] && self.hold == 0.0 && self.pressure[0] == 0.0;
+        let speed = || self.rows.fastest(v).max(self.rows.fastest(free)) + self.drift[0].abs();
+        self.apart = alone && self.impulse == [0.0; 2] && self.law[0].at(self.bias - APART * speed()) < 0.0;
+        if self.apart {
+            self.status = Status::Open;
+        }
+    }
+
+    /// Whether it would bear something at velocities `v` [m/s].
+    pub(crate) fn closes(&self, v: &[Triple]) -> bool {
+        self.law[0].at(self.velocity(v)[0] + self.bias) > 0.0
     }
 
     /// What bounds friction where p_n is what it is at the velocity `u_n` [m/s], in N s.

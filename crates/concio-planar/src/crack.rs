@@ -915,10 +915,12 @@ impl Crack {
     }
 
     /// Opening and slide at the ends where the points of a part have those `of` them; none where they are no two.
-    fn line_through(&self, part: Part, of: &dyn Fn(&Spot) -> [f64; 2]) -> Option<[[f64; 2]; 2]> {
-        let spots = self.spots.iter().filter(|spot| spot.part == part);
-        let first = spots.clone().reduce(|a, b| if b.at < a.at { b } else { a })?;
-        let second = spots.reduce(|a, b| if b.at > a.at { b } else { a })?;
+    fn line_through(&self, part: Part, of: &impl Fn(&Spot) -> [f64; 2]) -> Option<[[f64; 2]; 2]> {
+        let mut spots = self.spots.iter().filter(|spot| spot.part == part);
+        let only = spots.next()?;
+        let [first, second] = spots.fold([only; 2], |[first, second], spot| {
+            [if spot.at < first.at { spot } else { first }, if spot.at > second.at { spot } else { second }]
+        });
         let (from, to, length) = (of(first), of(second), second.at - first.at);
         let at = |x: f64| [0, 1].map(|k| from[k] + (x - first.at) / length * (to[k] - from[k]));
         (length > 0.0).then(|| [at(0.0), at(1.0)])
@@ -1050,7 +1052,8 @@ impl Crack {
             self.nodes.fill(Node::GONE);
         }
         // What has cracked opens as the edges of the blocks stand, what is held by how far it was stretched: they differ by rounding and by turning.
-        let line = self.line_through(Part::Dry, &ways(points)).unwrap_or(self.line);
+        let dry_line = |crack: &Self| crack.line_through(Part::Dry, &ways(points)).unwrap_or(crack.line);
+        let line = if bonded == 0 { self.line } else { dry_line(self) };
         let crushed = self.crush(law, &line);
         let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
         // What the points have crushed in the step is told as theirs.
@@ -1094,7 +1097,7 @@ impl Crack {
             // Springs along are theirs.
             self.follow_fibres(law, points, (&line, still, parting), handed[1])
         } else {
-            self.share_friction(law, points, (still, parting), handed);
+            self.share_friction(law, points, &self.limits(law, points, (still, parting)), handed);
             stored + friction[1] - self.friction_borne(law, points)[1]
         };
         // What the next step takes them to bear before it knows better.
@@ -1108,12 +1111,13 @@ impl Crack {
 
     /// Parting velocities of the ends of a joint that can be crushed, where its points part at `mean` [m/s]; 0 without inertia and of all others.
     pub(crate) fn parting(&self, law: &Law, still: bool, mean: &dyn Fn(usize) -> f64) -> [f64; 2] {
+        if still || law.crushing.is_infinite() {
+            return [0.0; 2];
+        }
         let dry = self.spots.iter().enumerate().filter(|(_, spot)| spot.part == Part::Dry);
         let first = dry.clone().min_by(|a, b| a.1.at.total_cmp(&b.1.at));
         let last = dry.max_by(|a, b| a.1.at.total_cmp(&b.1.at));
-        let (Some((first, from)), Some((last, to)), false) = (first, last, still || law.crushing.is_infinite()) else {
-            return [0.0; 2];
-        };
+        let (Some((first, from)), Some((last, to))) = (first, last) else { return [0.0; 2] };
         let [near, far] = [mean(first), mean(last)];
         let slope = if to.at > from.at { (far - near) / (to.at - from.at) } else { 0.0 };
         [near - slope * from.at, near + slope * (1.0 - from.at)]

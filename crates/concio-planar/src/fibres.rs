@@ -7,6 +7,8 @@
 //!
 //! with the slide s of the joint there, the pressure p and the anchor a, the slide at which the fibre bears nothing.
 
+use std::ops::Range;
+
 use serde::{Deserialize, Serialize};
 
 /// Fibres of a joint, evenly from one end to the other.
@@ -43,6 +45,28 @@ pub(crate) struct Stands {
 pub(crate) struct Sheared {
     pub whole: f64,
     pub energy: f64,
+}
+
+impl Sheared {
+    pub fn and(self, other: Self) -> Self {
+        Sheared { whole: self.whole + other.whole, energy: self.energy + other.energy }
+    }
+}
+
+/// Those that are pressed all over, those that are in part and those that hang free, of a joint that a straight line presses in by so much at its ends [m].
+pub(crate) fn parts([from, to]: [f64; 2]) -> [Range<usize>; 3] {
+    let (none, all) = (0..0, 0..FIBRES);
+    match [from > 0.0, to > 0.0] {
+        [true, true] => [all, none.clone(), none],
+        [false, false] => [none.clone(), none, all],
+        [starts, _] => {
+            let opens = from / (from - to) * (FIBRES - 1) as f64;
+            // One more at each side, where rounding may put it.
+            let [first, last] = [(opens - 1.0).max(0.0) as usize, (opens + 2.5).min(FIBRES as f64) as usize];
+            let (before, beyond) = (0..first, last..FIBRES);
+            if starts { [before, first..last, beyond] } else { [beyond, first..last, before] }
+        }
+    }
 }
 
 /// Half of what a fibre stands for, of the joint.
@@ -93,32 +117,47 @@ impl Fibres {
         }
     }
 
-    /// Takes them along to where the joint slid to, with springs of `stiffness` over all of it [N/m]: `at` says how it stands around each. What would bear more than
-    /// friction lets it slides.
-    pub fn follow(&mut self, stiffness: f64, at: impl Fn(f64) -> Stands) -> Sheared {
-        let mut sheared = Sheared::default();
-        for (n, (anchor, before)) in self.anchors.iter_mut().zip(&mut self.pressed).enumerate() {
-            let Stands { slide, most, pressed } = at(place(n));
-            let before = std::mem::replace(before, pressed);
-            // What has just closed bears nothing yet.
-            let stretch = (*anchor - slide) * if pressed > before { before / pressed } else { 1.0 };
-            let k = pressed * stiffness;
-            let borne = (k * stretch).max(-most).min(most);
-            // Rounding would move what sticks.
-            let sticks = borne == k * stretch;
-            let stretch = if k == 0.0 {
-                0.0
-            } else if sticks {
-                stretch
-            } else {
-                borne / k
-            };
-            *anchor = slide + stretch;
-            let weight = if n == 0 || n == FIBRES - 1 { 0.5 } else { 1.0 } / (FIBRES - 1) as f64;
-            sheared.whole += weight * borne;
-            sheared.energy += weight * 0.5 * borne * stretch;
+    /// Takes those of a `part` of the joint along to where it slid to, with springs of `stiffness` over all of it [N/m]: `at` says how it stands around each. What would
+    /// bear more than friction lets it slides.
+    #[inline(always)]
+    pub fn follow(&mut self, stiffness: f64, part: Range<usize>, at: impl Fn(f64) -> Stands) -> Sheared {
+        if part.is_empty() {
+            return Sheared::default();
         }
-        sheared
+        // What each bears [N] and stores twice [J]: no sum is in the way of taking several at once.
+        let mut sheared = [[0.0; FIBRES]; 2];
+        let [borne, energy] = sheared.each_mut().map(|all| &mut all[part.clone()]);
+        let states = self.anchors[part.clone()].iter_mut().zip(&mut self.pressed[part.clone()]);
+        for ((n, (anchor, pressed)), (borne, energy)) in part.zip(states).zip(borne.iter_mut().zip(energy)) {
+            let Stands { slide, most, pressed: now } = at(place(n));
+            let before = std::mem::replace(pressed, now);
+            // What has just closed bears nothing yet.
+            let stretch = (*anchor - slide) * if now > before { before / now } else { 1.0 };
+            let k = now * stiffness;
+            let sticks = k * stretch;
+            *borne = if sticks > most { most } else { sticks };
+            *borne = if *borne < -most { -most } else { *borne };
+            let slid = if k == 0.0 { 0.0 } else { *borne / k };
+            // Rounding would move what sticks.
+            let stretch = if *borne == sticks && k != 0.0 { stretch } else { slid };
+            *anchor = slide + stretch;
+            *energy = *borne * stretch;
+        }
+        let [whole, energy] = sheared.map(|all| {
+            let fours = all.chunks(4).fold([0.0; 4], |mut sums, four| {
+                four.iter().zip(&mut sums).for_each(|(own, sum)| *sum += own);
+                sums
+            });
+            let ends = 0.5 * (all[0] + all[FIBRES - 1]);
+            (fours[0] + fours[1] + (fours[2] + fours[3]) - ends) / (FIBRES - 1) as f64
+        });
+        Sheared { whole, energy: 0.5 * energy }
+    }
+
+    /// Lets those of a `part` of the joint hang free.
+    pub fn hang(&mut self, part: Range<usize>) {
+        // What has just closed bears nothing, wherever its anchor is.
+        self.pressed[part].fill(0.0);
     }
 
     /// Lets all of them bear only a `part` of what they do where the joint slid to `at` [m].
@@ -132,5 +171,6 @@ impl Fibres {
 
 /// Place of a fibre, 0 … 1.
 fn place(n: usize) -> f64 {
-    n as f64 / (FIBRES - 1) as f64
+    // Whole numbers so small are turned into others several at once.
+    f64::from(n as u16) / (FIBRES - 1) as f64
 }

@@ -50,9 +50,22 @@ impl Solver {
         (tolerance, enough): (f64, f64),
         halves: bool,
     ) -> Effort {
-        // All that is asked of each, in one go: where there are many they are far away.
-        let mut survey = Survey::default();
-        contacts.iter().for_each(|contact| survey.see(contact));
-        self.interior.solve(&mut self.matrix, (mass, free), (contacts, &survey), v, (tolerance, enough), halves)
+        contacts.iter_mut().for_each(|contact| contact.see_apart(v, free));
+        let mut effort = Effort::default();
+        loop {
+            // All that is asked of each, in one go: where there are many they are far away.
+            let mut survey = Survey::default();
+            contacts.iter().for_each(|contact| survey.see(contact));
+            let (all, ends) = ((&mut *contacts, &survey), (tolerance, enough));
+            effort = effort.then(self.interior.solve(&mut self.matrix, (mass, free), all, v, ends, halves));
+            let mut whole = true;
+            for contact in contacts.iter_mut().filter(|contact| contact.apart && contact.closes(v)) {
+                (contact.apart, whole) = (false, false);
+            }
+            if whole {
+                return effort;
+            }
+            v.copy_from_slice(self.interior.guess());
+        }
     }
 }

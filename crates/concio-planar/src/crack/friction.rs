@@ -1,7 +1,7 @@
 //! What a joint bears along where it has no bond: what its points take over from its fibres, and what friction takes.
 
-use super::{Crack, DRY, POINTS, Spot, Worn, between};
-use crate::fibres::{HALF, Sheared, Stands, above};
+use super::{Crack, DRY, POINTS, Worn, between};
+use crate::fibres::{FIBRES, HALF, Sheared, Stands, above, parts};
 use crate::joint::{Law, Part, Point};
 
 impl Crack {
@@ -49,6 +49,18 @@ impl Crack {
     ) -> f64 {
         let (along, before) = (law.breaking_stiffness(), stored + self.fibres.uneven);
         self.start_and_stop(points);
+        // What acts without inertia acts at the end of the step, else in its middle.
+        let was = &self.was;
+        let open = [0, 1].map(|end| if still { line[end][0] } else { 0.5 * (line[end][0] + was[end][0]) });
+        let even = self.crushed.iter().all(|depth| *depth == 0.0);
+        let [closed, begins, hangs] = parts(open.map(|gap| -gap));
+        if even && hangs.len() == FIBRES {
+            self.fibres.hang(hangs);
+            (self.fibres.uneven, self.fibres.rubbed) = (0.0, 0.0);
+            let dry = self.spots.iter().filter(|spot| spot.part == Part::Dry);
+            dry.for_each(|spot| points[spot.point].bearing = 0.0);
+            return before;
+        }
         let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
         let mut mus = [[f64::NAN; 2]; DRY];
         dry().zip(&mut mus).for_each(|(spot, mu)| {
@@ -66,22 +78,30 @@ impl Crack {
         };
         let (stiffness, damping) = (law.normal_stiffness(), law.normal_damping());
         let last = self.crushed.len().saturating_sub(1) as f64;
-        let Crack { fibres, crushed, was, .. } = self;
-        let Sheared { mut whole, mut energy } = fibres.follow(along, |x| {
-            let ends = [(x - HALF).max(0.0), (x + HALF).min(1.0)];
-            let deep = |x: f64| crushed.get((x * last).round() as usize).copied().unwrap_or(0.0);
-            // What acts without inertia acts at the end of the step, else in its middle.
-            let sunk = ends.map(|x| {
-                let [now, then] = [between(line, x)[0], between(was, x)[0]];
-                -if still { now } else { 0.5 * (now + then) } - deep(x)
-            });
-            let [pressed, sprung] = above(sunk);
+        let Crack { fibres, crushed, .. } = self;
+        let opens = |x: f64| open[0] + x * (open[1] - open[0]);
+        let slides = |x: f64| between(line, x)[1];
+        let bears = |x: f64, mu: f64, [pressed, sprung]: [f64; 2]| {
             let damped = pressed * damping * (parting[0] + x * (parting[1] - parting[0]));
             let force = stiffness * sprung;
             let force = if parting == [0.0; 2] || force == 0.0 { force } else { (force - damped).max(0.0) };
-            let most = mu(x) * force.min(pressed * law.crushing);
-            Stands { slide: between(line, x)[1], most, pressed }
-        });
+            Stands { slide: slides(x), most: mu * force.min(pressed * law.crushing), pressed }
+        };
+        let deep = |x: f64| crushed.get((x * last).round() as usize).copied().unwrap_or(0.0);
+        let around = |x: f64| {
+            let ends = [(x - HALF).max(0.0), (x + HALF).min(1.0)];
+            bears(x, mu(x), above(ends.map(|x| -opens(x) - deep(x))))
+        };
+        let Sheared { mut whole, mut energy } = if even && least == largest {
+            fibres.hang(hangs);
+            let even = fibres.follow(along, closed, |x| {
+                let middle = 0.5 * ((x - HALF).max(0.0) + (x + HALF).min(1.0));
+                bears(x, least, [1.0, -opens(middle)])
+            });
+            even.and(fibres.follow(along, begins, around))
+        } else {
+            fibres.follow(along, 0..FIBRES, around)
+        };
         // Friction took this of points that were pressed less in the step than at its end.
         let rubbed = std::mem::take(&mut fibres.rubbed);
         let most = (before + if still { rubbed } else { 0.0 }).max(0.0);
@@ -91,7 +111,8 @@ impl Crack {
             (whole, energy) = (part * whole, most);
         }
         // Without inertia nothing swings, whatever the points store.
-        self.spread(law, points, (still, parting), [whole, if still { f64::INFINITY } else { energy }]);
+        let limits = self.limits(law, points, (still, parting));
+        self.spread(law, points, &limits, [whole, if still { f64::INFINITY } else { energy }]);
         let [_, keeps] = self.friction_borne(law, points);
         self.fibres.uneven = energy - keeps;
         before - energy
@@ -107,34 +128,44 @@ impl Crack {
         })
     }
 
-    /// What friction lets a point bear [N].
-    fn limit(&self, law: &Law, (spot, point): (&Spot, &Point), (still, parting): (bool, [f64; 2])) -> f64 {
-        let sprung = spot.share * law.normal_stiffness() * (-point.gap - point.crushed).max(0.0);
-        // What friction bore against the dashpots' pressure too would be lost at each step, however short.
-        let damped = spot.share * law.normal_damping() * (parting[0] + spot.at * (parting[1] - parting[0]));
-        let pressed = if parting == [0.0; 2] || sprung == 0.0 {
-            sprung
-        } else {
-            (sprung - damped).clamp(0.0, (spot.share + spot.edge) * law.crushing)
-        };
-        spot.rubbing * law.friction.map_or(0.0, |friction| friction.of(point.speed, still)) * pressed
+    /// What friction lets each point bear [N].
+    pub(super) fn limits(&self, law: &Law, points: &[Point], (still, parting): (bool, [f64; 2])) -> [f64; POINTS] {
+        let mut limits = [0.0; POINTS];
+        let Some(friction) = law.friction else { return limits };
+        let (stiffness, damping) = (law.normal_stiffness(), law.normal_damping());
+        for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
+            let point = &points[spot.point];
+            let sprung = spot.share * stiffness * (-point.gap - point.crushed).max(0.0);
+            // What friction bore against the dashpots' pressure too would be lost at each step, however short.
+            let damped = spot.share * damping * (parting[0] + spot.at * (parting[1] - parting[0]));
+            let pressed = if parting == [0.0; 2] || sprung == 0.0 {
+                sprung
+            } else {
+                (sprung - damped).clamp(0.0, (spot.share + spot.edge) * law.crushing)
+            };
+            limits[spot.point] = spot.rubbing * friction.of(point.speed, still) * pressed;
+        }
+        limits
     }
 
     /// Has its points bear `whole` along the joint [N], or what stores no more than `energy` [J]: each as near as that goes to the same part of what friction lets it, so
     /// that none slides before the joint does.
-    fn spread(&self, law: &Law, points: &mut [Point], how: (bool, [f64; 2]), [whole, energy]: [f64; 2]) {
-        self.share_friction(law, points, how, [whole, energy]);
+    fn spread(&self, law: &Law, points: &mut [Point], limits: &[f64; POINTS], [whole, energy]: [f64; 2]) {
         let along = law.breaking_stiffness();
         let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
-        let all: f64 = dry().map(|spot| self.limit(law, (spot, &points[spot.point]), how)).sum();
+        // Of what is open.
+        if whole == 0.0 || energy == 0.0 {
+            return dry().for_each(|spot| points[spot.point].bearing = 0.0);
+        }
+        self.share_friction(law, points, limits, [whole, energy]);
+        let all: f64 = dry().map(|spot| limits[spot.point]).sum();
         let borne: f64 = dry().map(|spot| points[spot.point].bearing).sum();
         let part = if all > 0.0 { (borne / all).clamp(-1.0, 1.0) } else { 0.0 };
         let mut ways = [0.0; POINTS];
         let mut sums = [0.0; 3];
         for spot in dry() {
-            let point = &points[spot.point];
-            let (from, k) = (point.bearing, spot.share * along);
-            let way = part * self.limit(law, (spot, point), how) - from;
+            let (from, k) = (points[spot.point].bearing, spot.share * along);
+            let way = part * limits[spot.point] - from;
             ways[spot.point] = way;
             sums = [sums[0] + way * way / k, sums[1] + from * way / k, sums[2] + from * from / k];
         }
@@ -159,7 +190,7 @@ impl Crack {
         &self,
         law: &Law,
         points: &mut [Point],
-        (still, parting): (bool, [f64; 2]),
+        limits: &[f64; POINTS],
         [whole, energy]: [f64; 2],
     ) {
         let along = law.breaking_stiffness();
@@ -173,8 +204,7 @@ impl Crack {
                 if slides[spot.point] {
                     continue;
                 }
-                let point = &mut points[spot.point];
-                let most = self.limit(law, (spot, point), (still, parting));
+                let (point, most) = (&mut points[spot.point], limits[spot.point]);
                 point.bearing = stretch * spot.share * along;
                 if point.bearing.abs() > most {
                     point.bearing = most.copysign(stretch);
