@@ -107,15 +107,29 @@ impl Node {
         1.0 - self.left
     }
 
-    /// Whether being stretched by `w` and `s` [m] does nothing to it: it is broken already, or intact and within its strengths.
+    /// What a slide and an opening ask of it together along [m]: tension takes from the strength along what it bears times tan φ, and a slide that would bear that is added to
+    /// the one there is.
+    fn sheared(&self, [w, s]: [f64; 2], law: &Law) -> f64 {
+        let [opened, slid] = self.lost.map(|lost| 1.0 - lost);
+        s.abs() + (opened / slid).min(1.0) * law.pulled(w)
+    }
+
+    /// How far it may be stretched in a mode of `k` [N/m] and this strength [N] [m].
+    fn limit(&self, mode: usize, k: f64, strength: f64) -> f64 {
+        strength * self.left / (k * (1.0 - self.lost[mode]))
+    }
+
+    /// Whether being stretched by `w` and `s` [m] does nothing to it: it is broken already, or within its strengths.
     fn stays(&self, [w, s]: [f64; 2], law: &Law, bond: &Bond) -> bool {
         let Normal::Springs { both, press, .. } = law.normal else { return true };
+        let along = law.breaking_stiffness();
         let pressure = (both + press) * (-w).max(0.0);
+        let within =
+            |mode: usize, stretch: f64, k: f64, strength: f64| k == 0.0 || !(stretch > self.limit(mode, k, strength));
         self.damage() == 1.0
-            || *self == Node::INTACT
-                && both * (w - TOUCHING) <= bond.tension
-                && law.breaking_stiffness() * law.sheared([w, s]) <= law.shear_strengths(pressure)[0]
-                && pressure <= law.crushing
+            || pressure <= law.crushing
+                && within(0, w - TOUCHING, both, bond.tension)
+                && within(1, self.sheared([w, s], law), along, law.shear_strengths(pressure)[0])
     }
 
     /// The way beyond its limit along of a node that has slid to `slid`, the last `way` of it in this step, counted from here on [m]. What it slid while
@@ -193,8 +207,7 @@ impl Node {
         let (mut keeps, mut loses) = (0.0, 1.0);
         while loses - keeps > CLOSELY {
             let half = 0.5 * (keeps + loses);
-            let worn = self.worn(between(&[from, to], half), from, law, bond).0;
-            *if worn == *self { &mut keeps } else { &mut loses } = half;
+            *if self.stays(between(&[from, to], half), law, bond) { &mut keeps } else { &mut loses } = half;
         }
         keeps
     }
@@ -215,13 +228,8 @@ impl Node {
         let (damage, had) = (node.damage(), node.lost);
         let along = law.breaking_stiffness();
         let pressure = ((both + press) * -w).max(0.0);
-        // Tension takes from the strength along what it bears times tan φ: a slide that would bear that is added to the one there is.
-        let sheared = |node: &Node, [w, s]: [f64; 2]| {
-            let [opened, slid] = node.lost.map(|lost| 1.0 - lost);
-            let bears = (opened / slid).min(1.0);
-            s.abs() + bears * law.pulled(w)
-        };
-        let grown = [w - then[0], s.abs() - then[1].abs(), sheared(&node, [w, s]) - sheared(&node, then)];
+        let sheared = node.sheared([w, s], law);
+        let grown = [w - then[0], s.abs() - then[1].abs(), sheared - node.sheared(then, law)];
         let grown = grown.map(|way| way.max(0.0));
         let (mut taken, mut passed) = (0.0, [false; 2]);
         // `way` is how much farther it is stretched than before, `other` twice what the other direction would store.
@@ -236,7 +244,7 @@ impl Node {
                 return;
             }
             let from = strength * node.left;
-            let limit = from / (k * (1.0 - node.lost[mode]));
+            let limit = node.limit(mode, k, strength);
             if !(stretch > limit) {
                 return;
             }
@@ -271,7 +279,7 @@ impl Node {
             taken += 0.5 * (node.damage() - before) * other;
         };
         pass(&mut node, 0, [w - TOUCHING, grown[0]], both, [bond.tension, 0.0], along * s * s);
-        let stretch = sheared(&node, [w, s]);
+        let stretch = node.sheared([w, s], law);
         let opened = both * w.max(0.0).powi(2);
         pass(&mut node, 1, [stretch, grown[2]], along, law.shear_strengths(pressure), opened);
         // Where both modes have lost some, one of them bears less than its limit. What springs bore on the way and do not store is taken then.

@@ -9,6 +9,7 @@
 
 use std::ops::Range;
 
+use pulp::Arch;
 use serde::{Deserialize, Serialize};
 
 /// Fibres of a joint, evenly from one end to the other.
@@ -45,6 +46,73 @@ pub(crate) struct Stands {
 pub(crate) struct Sheared {
     pub whole: f64,
     pub energy: f64,
+}
+
+/// How a joint slid [m] and what presses it, over all of it and no more than `limit` [N], as straight lines: at its start, and how much more at its end.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Lines {
+    pub slide: [f64; 2],
+    pub press: [f64; 2],
+    pub limit: f64,
+    /// Friction.
+    pub mu: f64,
+}
+
+/// Sums over fibres, in fours by their numbers: the same bits however many are taken at once.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    whole: [f64; 4],
+    energy: [f64; 4],
+}
+
+impl Sums {
+    /// What a fibre bears [N] and stores twice [J].
+    #[inline(always)]
+    fn add(&mut self, n: usize, borne: f64, energy: f64) {
+        // Those at the ends stand for half as much.
+        let weight = if n == 0 || n == FIBRES - 1 { 0.5 } else { 1.0 };
+        self.whole[n % 4] += weight * borne;
+        self.energy[n % 4] += weight * energy;
+    }
+
+    #[inline(always)]
+    fn sheared(&self) -> Sheared {
+        let [whole, energy] = [self.whole, self.energy].map(|[a, b, c, d]| (a + b + (c + d)) / (FIBRES - 1) as f64);
+        Sheared { whole, energy: 0.5 * energy }
+    }
+}
+
+/// What a fibre with a spring of `k` [N/m] bears [N] at this stretch, `most` at most, and the stretch that is left [m].
+#[inline(always)]
+fn bears(k: f64, stretch: f64, most: f64) -> (f64, f64) {
+    let sticks = k * stretch;
+    let borne = if sticks > most { most } else { sticks };
+    let borne = if borne < -most { -most } else { borne };
+    // Rounding would move what sticks.
+    (borne, if borne == sticks { stretch } else { borne / k })
+}
+
+/// [`Fibres::follow_pressed`], of fibres from number `first` on.
+#[inline(always)]
+fn sweep((anchors, pressed): (&mut [f64], &mut [f64]), first: usize, stiffness: f64, lines: &Lines) -> Sheared {
+    let Lines { slide: [from, more], press: [least, rise], limit, mu } = *lines;
+    // No sum is in the way of taking several at once.
+    let (mut borne, mut energy) = ([0.0; FIBRES], [0.0; FIBRES]);
+    let places = &PLACES[first..first + anchors.len()];
+    let states = anchors.iter_mut().zip(pressed).zip(places);
+    for (((anchor, pressed), x), (borne, energy)) in states.zip(borne.iter_mut().zip(&mut energy)) {
+        let slide = from + x * more;
+        let most = mu * (least + x * rise).max(0.0).min(limit);
+        // What has just closed bears nothing yet.
+        let (force, stretch) = bears(stiffness, (*anchor - slide) * *pressed, most);
+        (*anchor, *pressed) = (slide + stretch, 1.0);
+        (*borne, *energy) = (force, force * stretch);
+    }
+    let mut sums = Sums::default();
+    for (n, (borne, energy)) in borne.iter().zip(&energy).take(anchors.len()).enumerate() {
+        sums.add(first + n, *borne, *energy);
+    }
+    sums.sheared()
 }
 
 impl Sheared {
@@ -112,46 +180,35 @@ impl Fibres {
     pub fn begin(&mut self, anchor: impl Fn(f64) -> f64) {
         (self.uneven, self.rubbed) = (0.0, 0.0);
         self.pressed.fill(1.0);
-        for (n, own) in self.anchors.iter_mut().enumerate() {
-            *own = anchor(place(n));
+        for (own, x) in self.anchors.iter_mut().zip(PLACES) {
+            *own = anchor(x);
         }
     }
 
     /// Takes those of a `part` of the joint along to where it slid to, with springs of `stiffness` over all of it [N/m]: `at` says how it stands around each. What would
     /// bear more than friction lets it slides.
-    #[inline(always)]
     pub fn follow(&mut self, stiffness: f64, part: Range<usize>, at: impl Fn(f64) -> Stands) -> Sheared {
+        let mut sums = Sums::default();
+        for n in part {
+            let Stands { slide, most, pressed } = at(PLACES[n]);
+            let before = std::mem::replace(&mut self.pressed[n], pressed);
+            // What has just closed bears nothing yet.
+            let stretch = (self.anchors[n] - slide) * if pressed > before { before / pressed } else { 1.0 };
+            let k = pressed * stiffness;
+            let (borne, stretch) = if k == 0.0 { (0.0, 0.0) } else { bears(k, stretch, most) };
+            self.anchors[n] = slide + stretch;
+            sums.add(n, borne, borne * stretch);
+        }
+        sums.sheared()
+    }
+
+    /// The same of those that are pressed all over, along `lines`: most by far, several at once.
+    pub fn follow_pressed(&mut self, stiffness: f64, part: Range<usize>, lines: &Lines) -> Sheared {
         if part.is_empty() {
             return Sheared::default();
         }
-        // What each bears [N] and stores twice [J]: no sum is in the way of taking several at once.
-        let mut sheared = [[0.0; FIBRES]; 2];
-        let [borne, energy] = sheared.each_mut().map(|all| &mut all[part.clone()]);
-        let states = self.anchors[part.clone()].iter_mut().zip(&mut self.pressed[part.clone()]);
-        for ((n, (anchor, pressed)), (borne, energy)) in part.zip(states).zip(borne.iter_mut().zip(energy)) {
-            let Stands { slide, most, pressed: now } = at(place(n));
-            let before = std::mem::replace(pressed, now);
-            // What has just closed bears nothing yet.
-            let stretch = (*anchor - slide) * if now > before { before / now } else { 1.0 };
-            let k = now * stiffness;
-            let sticks = k * stretch;
-            *borne = if sticks > most { most } else { sticks };
-            *borne = if *borne < -most { -most } else { *borne };
-            let slid = if k == 0.0 { 0.0 } else { *borne / k };
-            // Rounding would move what sticks.
-            let stretch = if *borne == sticks && k != 0.0 { stretch } else { slid };
-            *anchor = slide + stretch;
-            *energy = *borne * stretch;
-        }
-        let [whole, energy] = sheared.map(|all| {
-            let fours = all.chunks(4).fold([0.0; 4], |mut sums, four| {
-                four.iter().zip(&mut sums).for_each(|(own, sum)| *sum += own);
-                sums
-            });
-            let ends = 0.5 * (all[0] + all[FIBRES - 1]);
-            (fours[0] + fours[1] + (fours[2] + fours[3]) - ends) / (FIBRES - 1) as f64
-        });
-        Sheared { whole, energy: 0.5 * energy }
+        let (anchors, pressed) = (&mut self.anchors[part.clone()], &mut self.pressed[part.clone()]);
+        Arch::new().dispatch(|| sweep((anchors, pressed), part.start, stiffness, lines))
     }
 
     /// Lets those of a `part` of the joint hang free.
@@ -163,14 +220,19 @@ impl Fibres {
     /// Lets all of them bear only a `part` of what they do where the joint slid to `at` [m].
     pub fn weaken(&mut self, part: f64, at: impl Fn(f64) -> f64) {
         for (n, anchor) in self.anchors.iter_mut().enumerate() {
-            let slide = at(place(n));
+            let slide = at(PLACES[n]);
             *anchor = slide + part * (*anchor - slide);
         }
     }
 }
 
-/// Place of a fibre, 0 … 1.
-fn place(n: usize) -> f64 {
-    // Whole numbers so small are turned into others several at once.
-    f64::from(n as u16) / (FIBRES - 1) as f64
-}
+/// Place of each fibre, 0 … 1.
+const PLACES: [f64; FIBRES] = {
+    let mut places = [0.0; FIBRES];
+    let mut n = 0;
+    while n < FIBRES {
+        places[n] = n as f64 / (FIBRES - 1) as f64;
+        n += 1;
+    }
+    places
+};

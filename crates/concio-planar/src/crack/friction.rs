@@ -1,7 +1,7 @@
 //! What a joint bears along where it has no bond: what its points take over from its fibres, and what friction takes.
 
 use super::{Crack, DRY, POINTS, Worn, between};
-use crate::fibres::{FIBRES, HALF, Sheared, Stands, above, parts};
+use crate::fibres::{FIBRES, HALF, Lines, Sheared, Stands, above, parts};
 use crate::joint::{Law, Part, Point};
 
 impl Crack {
@@ -94,10 +94,11 @@ impl Crack {
         };
         let Sheared { mut whole, mut energy } = if even && least == largest {
             fibres.hang(hangs);
-            let even = fibres.follow(along, closed, |x| {
-                let middle = 0.5 * ((x - HALF).max(0.0) + (x + HALF).min(1.0));
-                bears(x, least, [1.0, -opens(middle)])
-            });
+            let force = |x: f64| -stiffness * opens(x) - damping * (parting[0] + x * (parting[1] - parting[0]));
+            let [first, last] = [0.0, 1.0].map(force);
+            let slide = [line[0][1], line[1][1] - line[0][1]];
+            let lines = Lines { slide, press: [first, last - first], limit: law.crushing, mu: least };
+            let even = fibres.follow_pressed(along, closed, &lines);
             even.and(fibres.follow(along, begins, around))
         } else {
             fibres.follow(along, 0..FIBRES, around)
