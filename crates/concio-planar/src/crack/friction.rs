@@ -1,7 +1,7 @@
 //! What a joint bears along where it has no bond: what its points take over from its fibres, and what friction takes.
 
 use super::{Crack, DRY, POINTS, Spot, Worn, between};
-use crate::fibres::{HALF, Sheared, Stands, above};
+use crate::fibres::{FIBRES, HALF, Sheared, Stands, above};
 use crate::joint::{Law, Part, Point};
 
 impl Crack {
@@ -66,14 +66,17 @@ impl Crack {
         };
         let (stiffness, damping) = (law.normal_stiffness(), law.normal_damping());
         let last = self.crushed.len().saturating_sub(1) as f64;
-        let Crack { fibres, crushed, was, .. } = self;
+        // What is pressed in beyond that is crushed.
+        let most = law.crushing / stiffness;
+        let Crack { fibres, crushed, was, shallower, .. } = self;
         let Sheared { mut whole, mut energy } = fibres.follow(along, |x| {
             let ends = [(x - HALF).max(0.0), (x + HALF).min(1.0)];
             let deep = |x: f64| crushed.get((x * last).round() as usize).copied().unwrap_or(0.0);
-            // What acts without inertia acts at the end of the step, else in its middle.
+            // What acts without inertia acts at the end of the step, else in its middle, when not all is crushed yet that is by its end.
             let sunk = ends.map(|x| {
                 let [now, then] = [between(line, x)[0], between(was, x)[0]];
-                -if still { now } else { 0.5 * (now + then) } - deep(x)
+                let before = shallower.get((x * 2.0 * (FIBRES - 1) as f64).round() as usize);
+                if still { -now - deep(x) } else { (-0.5 * (now + then) - before.unwrap_or(&0.0)).min(most) }
             });
             let [pressed, sprung] = above(sunk);
             let damped = pressed * damping * (parting[0] + x * (parting[1] - parting[0]));
@@ -82,6 +85,10 @@ impl Crack {
             let most = mu(x) * force.min(pressed * law.crushing);
             Stands { slide: between(line, x)[1], most, pressed }
         });
+        let places = (2 * (FIBRES - 1)) as f64;
+        for (n, depth) in shallower.iter_mut().enumerate() {
+            *depth = crushed.get((n as f64 / places * last).round() as usize).copied().unwrap_or(0.0);
+        }
         // Friction took this of points that were pressed less in the step than at its end.
         let rubbed = std::mem::take(&mut fibres.rubbed);
         let most = (before + if still { rubbed } else { 0.0 }).max(0.0);
