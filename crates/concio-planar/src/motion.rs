@@ -746,7 +746,7 @@ impl Motion {
         let stale = self.astray;
         let effort = if stale { self.solve_as_it_was(h) } else { effort };
         let enough = effort.residual <= self.setting.part(h) * self.setting.enough();
-        let rings = halved < SOON && self.rings(h);
+        let rings = halved < HALVINGS && self.rings(h, halved < SOON);
         let in_parts = rings || halved < HALVINGS && (!enough || self.jolts(h));
         if in_parts || halved < CROSSINGS && !self.follows_crushing(h) {
             return false;

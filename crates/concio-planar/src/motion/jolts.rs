@@ -63,14 +63,15 @@ impl Motion {
 
     /// Whether bonds take so much of the motion in a step of `h` [s] that it counts how what they held rings then, or a joint nears its strength as a whole; or did a
     /// little before.
-    pub(super) fn rings(&mut self, h: f64) -> bool {
+    pub(super) fn rings(&mut self, h: f64, soon: bool) -> bool {
         if self.setting.still {
             return false;
         }
-        if self.spent() > SPENT * self.energy_of_motion(RINGS) || self.crushes && self.nears_crushing(h) {
+        let nears = self.crushes && self.nears_crushing(h);
+        if nears || soon && self.spent() > SPENT * self.energy_of_motion(RINGS) {
             self.rings_until = self.time + RINGS;
         }
-        self.time < self.rings_until || self.crushes && self.crushes_fast(h)
+        nears || soon && (self.time < self.rings_until || self.crushes && self.crushes_fast(h))
     }
 
     /// Whether joints that can be crushed bear so much before they close that it counts: what closes in a step bears in all of it, and what that takes crushes
