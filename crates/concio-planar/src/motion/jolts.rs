@@ -62,7 +62,7 @@ impl Motion {
     }
 
     /// Whether bonds take so much of the motion in a step of `h` [s] that it counts how what they held rings then, or a joint nears its strength as a whole; or did a
-    /// little before.
+    /// little before. Of a step that was not halved `soon` before, only the joint counts: how its spring swings takes shorter ones.
     pub(super) fn rings(&mut self, h: f64, soon: bool) -> bool {
         if self.setting.still {
             return false;
