@@ -36,8 +36,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::fibres::Fibres;
+use crate::fibres::{FIBRES, Fibres};
 use crate::joint::{Bond, Law, Normal, Part, Point};
+use crate::motion::Gaps;
 use crate::zone::{self, Local, Moments, Zone};
 
 mod friction;
@@ -46,8 +47,10 @@ mod friction;
 const NODES: usize = 129;
 /// Nodes of a joint without bond at which it is known what is crushed: what rocks back over that leans on a narrow edge.
 const CRUSHED_NODES: usize = 513;
-/// Points of what has cracked: two for each zone, and two more of what is open of a joint that can be crushed.
-pub(crate) const DRY: usize = 2 * ZONES + 2;
+/// Places between fibres, and the fibres themselves.
+const BETWEEN_FIBRES: usize = 2 * FIBRES - 1;
+/// Points of what has cracked: two for each zone, and two more for either that is open of a joint that can be crushed.
+pub(crate) const DRY: usize = 2 * ZONES + 4;
 /// Points of what is left of the bond.
 pub(crate) const HELD: usize = 2;
 /// Points of a bonded joint, the last for the spring that stays beside friction.
@@ -366,6 +369,8 @@ pub struct Crack {
     hidden: f64,
     /// Its springs along, once nothing of its bond is left.
     fibres: Fibres,
+    /// What was crushed between its fibres before the step [m]; none of a joint that bears any pressure.
+    shallower: Vec<f64>,
     /// When it first cracked [s]; infinite while it is intact.
     pub cracked: f64,
     /// When nothing was left of it [s].
@@ -378,12 +383,19 @@ pub struct Crack {
     spots: Vec<Spot>,
 }
 
-/// Zones of a joint: what is open, what is pressed, what is pressed where it was crushed, and what is pressed nearly as hard as it bears.
-const ZONES: usize = 4;
+/// Zones of a joint: what is open, what is pressed, what is pressed where it was crushed, what is pressed nearly as hard as it bears, and what is open
+/// beyond that: what was crushed at both ends leans on its middle.
+const ZONES: usize = 5;
 const OPEN: usize = 0;
 const PRESSED: usize = 1;
 const CRUSHED: usize = 2;
 const CRUSHING: usize = 3;
+const BEYOND: usize = 4;
+
+/// Whether nothing is pressed of a zone.
+fn is_open(kind: usize) -> bool {
+    kind == OPEN || kind == BEYOND
+}
 
 /// What a bond loses in a step, in the mean over it or without inertia at its end, of the forces that it would bear had nothing cracked.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -481,6 +493,7 @@ impl Crack {
             placed: [[0.0; 2]; ZONES],
             hidden: 0.0,
             fibres: Fibres::new(law.cracked().in_line()),
+            shallower: vec![0.0; if crushed_nodes(law) > 0 { BETWEEN_FIBRES } else { 0 }],
             cracked: since,
             broken: since,
             reach: 0.0,
@@ -540,7 +553,7 @@ impl Crack {
 
     /// Where its sides face each other no more: all that has no bond is open, and what springs keep beyond that of the points is lost, which is returned [J].
     pub(crate) fn part(&mut self, law: &Law, points: &mut [Point]) -> f64 {
-        let pressed = self.placed.iter().enumerate().any(|(kind, placed)| kind != OPEN && placed[0] > 0.0);
+        let pressed = self.placed.iter().enumerate().any(|(kind, placed)| !is_open(kind) && placed[0] > 0.0);
         if !law.is_compliant() || !pressed {
             return 0.0;
         }
@@ -569,10 +582,13 @@ impl Crack {
         let most = law.crushing / stiffness;
         let [from, to] = [line[0][0], line[1][0]];
         let gone = self.is_gone();
+        let mut beyond = false;
         let mut take = |[a, b]: [(f64, Local); 2], pressed: usize| {
             let mut add = |ends: [(f64, Local); 2]| {
                 let opens = ends[0].1[3].max(ends[1].1[3]) > TOUCHING;
-                zones[if opens { OPEN } else { pressed }].add(ends);
+                beyond |= !opens && zones[OPEN].is_there();
+                let open = if beyond { BEYOND } else { OPEN };
+                zones[if opens { open } else { pressed }].add(ends);
             };
             let [start, end] = [a.1[3], b.1[3]];
             // Where its sides touch it has two parts.
@@ -645,6 +661,17 @@ impl Crack {
         (reach > 0.0 && reach < 1.0).then(|| rest + sense * reach * self.place_of(1))
     }
 
+    /// What is crushed at a place of it, 0 … 1 [m].
+    fn deep(&self, at: f64) -> f64 {
+        let last = self.crushed.len().saturating_sub(1);
+        let node = at * last as f64;
+        let first = (node as usize).min(last.saturating_sub(1));
+        match self.crushed.get(first..=first + 1) {
+            Some(ends) => ends[0] + (node - first as f64) * (ends[1] - ends[0]),
+            None => 0.0,
+        }
+    }
+
     /// Place of a node of which it is known what is crushed, 0 … 1.
     fn place_of(&self, node: usize) -> f64 {
         node as f64 / (self.nodes.len().max(self.crushed.len()) - 1) as f64
@@ -655,6 +682,7 @@ impl Crack {
         self.nodes.len() == if law.bond.is_some() { NODES } else { 0 }
             && (law.bond.is_some() || self.is_gone())
             && self.crushed.len() == crushed_nodes(law)
+            && self.shallower.len() == if self.crushed.is_empty() { 0 } else { BETWEEN_FIBRES }
             && self.fibres.fit(law.cracked().in_line())
             && (1..=POINTS).contains(&self.spots.len())
             && self.spots.iter().all(|spot| spot.point < POINTS && spot.at.is_finite() && spot.share > 0.0)
@@ -777,15 +805,18 @@ impl Crack {
             let points = match (corners, alone) {
                 (true, true) => zone::padded(zone.three(ends)),
                 // Without inertia nothing is gained: what follows a step puts it right.
-                _ if kind == OPEN && !still && law.crushing.is_finite() => zone.closing(&gap),
-                _ if kind == OPEN && !still => zone::padded(zone.ends()),
+                _ if is_open(kind) && !still && law.crushing.is_finite() => {
+                    let apart = |at: f64| between(line, at)[0] + self.deep(at);
+                    zone.closing(&apart, law.crushing / stiffness)
+                }
+                _ if is_open(kind) && !still => zone::padded(zone.ends()),
                 (true, false) => zone::padded(zone.two(Some(ends))),
                 (false, _) => zone::padded(zone.two(None)),
             };
             let points = || points.into_iter().filter(|[_, share]| *share > NOTHING);
             // A line through an uneven zone may leave what such a zone has: it is turned as far as it has to be.
             let mean = zone.gap[0] / zone.acts[0];
-            let limits = if kind == OPEN { [0.0, f64::INFINITY] } else { [-law.crushing / stiffness, 0.0] };
+            let limits = if is_open(kind) { [0.0, f64::INFINITY] } else { [-law.crushing / stiffness, 0.0] };
             let turned = points().fold(1.0, |turned: f64, [at, _]| {
                 let limit = if gap(at) < mean { limits[0] } else { limits[1] };
                 if (gap(at) - mean).abs() > (limit - mean).abs() {
@@ -798,21 +829,25 @@ impl Crack {
                 let mut spot = spot(point, Part::Dry, at, share);
                 // The part χ of all pressure rubs, of which what has cracked bears its share.
                 (spot.weight, spot.rubbing) = ((share * cracked(at)).max(0.0), rubs(at).clamp(0.0, 1.0));
-                if kind == OPEN && !still && law.crushing.is_finite() {
+                if is_open(kind) && !still && law.crushing.is_finite() {
                     spot.damps = 0.0;
                 }
                 if edge > 0.0 {
                     (spot.edge, spot.rubbing) = (edge, 0.0);
                 }
                 if crushed {
-                    let gap = mean + turned.max(0.0) * (gap(at) - mean);
+                    // What closes does so as it is there: with a line through all of it an end would bear that is open still.
+                    let gap = match is_open(kind) && !still && !alone {
+                        true => (between(line, at)[0] + self.deep(at)).max(0.0),
+                        false => mean + turned.max(0.0) * (gap(at) - mean),
+                    };
                     spot.crushed = gap - between(line, at)[0];
-                    self.hidden -= if kind == OPEN { 0.0 } else { 0.5 * stiffness * share * gap * gap };
+                    self.hidden -= if is_open(kind) { 0.0 } else { 0.5 * stiffness * share * gap * gap };
                 }
                 spots.push(spot);
                 point += 1;
             }
-            if crushed && kind != OPEN {
+            if crushed && !is_open(kind) {
                 self.hidden += 0.5 * stiffness * zone.square;
             }
         }
@@ -834,30 +869,20 @@ impl Crack {
     }
 
     /// By what part of the pressure its points, at these gaps now [m], miss what the whole of it bears that has cracked, where some of it is crushed.
-    pub(crate) fn misses(&self, law: &Law, points: &[Point], gaps: impl Iterator<Item = (usize, f64)>) -> f64 {
+    pub(crate) fn misses(&self, law: &Law, points: &[Point], gaps: Gaps) -> f64 {
         if !self.is_gone() {
             return 0.0;
         }
         let stiffness = law.normal_stiffness();
-        let standing = |point: usize| self.spots.iter().find(|spot| spot.point == point);
-        let (mut ends, mut found) = ([[f64::INFINITY, 0.0], [f64::NEG_INFINITY, 0.0]], [0.0; 2]);
-        for (spot, gap) in gaps.filter_map(|(point, gap)| Some((standing(point)?, gap))) {
+        let Some([start, slope]) = self.line_at(&gaps) else { return 0.0 };
+        let mut found = [0.0; 2];
+        for (point, gap) in gaps {
+            let Some(spot) = self.spots.iter().find(|spot| spot.point == point) else { continue };
             let bears = -spot.share * stiffness * (gap + points[spot.point].crushed);
             let force = bears.clamp(-spot.edge * law.crushing, (spot.share + spot.edge) * law.crushing);
             found = [found[0] + force, found[1] + force * spot.at];
-            if spot.at < ends[0][0] {
-                ends[0] = [spot.at, gap];
-            }
-            if spot.at > ends[1][0] {
-                ends[1] = [spot.at, gap];
-            }
         }
-        let [[from, near], [to, far]] = ends;
-        if !(to > from) {
-            return 0.0;
-        }
-        let slope = (far - near) / (to - from);
-        let [start, end] = [0.0, 1.0].map(|at: f64| near + slope * (at - from));
+        let end = start + slope;
         if self.depth() == 0.0 && -stiffness * start.min(end) <= FAR_BELOW * law.crushing {
             return 0.0;
         }
@@ -878,6 +903,27 @@ impl Crack {
         }
         let off = (whole[0] - found[0]).abs().max((whole[1] - found[1]).abs());
         off / found[0].max(MISSED * law.crushing)
+    }
+
+    /// By how much more is crushed where its points are at these gaps [m], over what its springs are pressed in by where that begins.
+    pub(crate) fn crushes_by(&self, law: &Law, gaps: Gaps) -> f64 {
+        let most = law.crushing / law.normal_stiffness();
+        let Some([start, slope]) = self.line_at(&gaps).filter(|_| self.is_gone()) else { return 0.0 };
+        if -start.min(start + slope) <= most {
+            return 0.0;
+        }
+        let deeper = |n: usize| -(start + slope * self.place_of(n)) - self.crushed[n];
+        (0..self.crushed.len()).map(deeper).fold(0.0, f64::max) / most - 1.0
+    }
+
+    /// Gap at the first end and by how much more it is at the other, where its points are at these gaps [m]; none where they are no two.
+    fn line_at(&self, gaps: &[(usize, f64)]) -> Option<[f64; 2]> {
+        let standing = |point: usize| self.spots.iter().find(|spot| spot.point == point);
+        let places = || gaps.iter().filter_map(|(point, gap)| Some([standing(*point)?.at, *gap]));
+        let [from, near] = places().reduce(|a, b| if b[0] < a[0] { b } else { a })?;
+        let [to, far] = places().reduce(|a, b| if b[0] > a[0] { b } else { a })?;
+        let slope = (far - near) / (to - from);
+        (to > from).then_some([near - slope * from, slope])
     }
 
     /// Crushes what is pressed harder than it bears, its ends being as far apart as `line` says; what that takes [J].

@@ -82,6 +82,9 @@ const JUMP: f64 = 3e-6;
 /// Contact points of a pair that are kept in place: joints whose points move have more.
 const POINTS: usize = 3;
 
+/// Points of what has cracked and their gaps [m].
+pub(crate) type Gaps = SmallVec<[(usize, f64); crack::DRY]>;
+
 /// A point of a joint without bond, but for where it is and how much of the joint.
 const UNBONDED: Spot = Spot {
     point: 0,
@@ -743,7 +746,7 @@ impl Motion {
         let stale = self.astray;
         let effort = if stale { self.solve_as_it_was(h) } else { effort };
         let enough = effort.residual <= self.setting.part(h) * self.setting.enough();
-        let rings = halved < SOON && self.rings(h);
+        let rings = halved < HALVINGS && self.rings(h, halved < SOON);
         let in_parts = rings || halved < HALVINGS && (!enough || self.jolts(h));
         if in_parts || halved < CROSSINGS && !self.follows_crushing(h) {
             return false;
@@ -1086,26 +1089,33 @@ impl Motion {
 
     /// Whether the points of all joints that have been crushed bear at the end of a step of `h` [s] what the joints do.
     fn follows_crushing(&self, h: f64) -> bool {
-        let mut at = 0;
         !self.crushes
-            || self.owners.chunk_by(|a, b| a.pair == b.pair).all(|owners| {
-                let contacts = &self.contacts[at..at + owners.len()];
-                at += owners.len();
-                let Pair { crack, points, link, .. } = &self.pairs[owners[0].pair];
-                let law = self.laws.of(*link);
-                let Some(crack) = crack.as_ref().filter(|_| law.crushing.is_finite()) else { return true };
-                let gaps = |part: f64| {
-                    let dry = owners.iter().zip(contacts).filter(|(owner, _)| owner.part == Part::Dry);
-                    dry.map(move |(owner, contact)| {
-                        let mean = 0.5 * (owner.start.velocity[0] + contact.velocity(&self.after)[0]);
-                        (owner.point, owner.start.gap + part * h * mean)
-                    })
-                };
+            || !self.any_crushing(h, |crack, law, points, gaps| {
                 let misses = |part: f64| crack.misses(law, points, gaps(part));
                 // What they miss from the start shorter steps do not mend.
                 let missed = misses(1.0);
-                missed <= crack::MISSED || missed <= crack::MISSED + misses(0.0)
+                missed > crack::MISSED && missed > crack::MISSED + misses(0.0)
             })
+    }
+
+    /// Whether something holds `of` a joint that can be crushed: of its points, and of the gaps that these have at a part of the step of `h` [s] [m].
+    fn any_crushing(&self, h: f64, of: impl Fn(&Crack, &Law, &[Point], &dyn Fn(f64) -> Gaps) -> bool) -> bool {
+        let mut at = 0;
+        self.owners.chunk_by(|a, b| a.pair == b.pair).any(|owners| {
+            let contacts = &self.contacts[at..at + owners.len()];
+            at += owners.len();
+            let Pair { crack, points, link, .. } = &self.pairs[owners[0].pair];
+            let law = self.laws.of(*link);
+            let Some(crack) = crack.as_ref().filter(|_| law.crushing.is_finite()) else { return false };
+            of(crack, law, points, &|part| {
+                let dry = owners.iter().zip(contacts).filter(|(owner, _)| owner.part == Part::Dry);
+                dry.map(|(owner, contact)| {
+                    let mean = 0.5 * (owner.start.velocity[0] + contact.velocity(&self.after)[0]);
+                    (owner.point, owner.start.gap + part * h * mean)
+                })
+                .collect()
+            })
+        })
     }
 
     /// Cracks and crushes the joints by a step that ended at `time` [s].

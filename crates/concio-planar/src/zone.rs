@@ -35,6 +35,8 @@ const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// Places of the points of what closes, over its length.
 const CLOSING: [f64; 4] = [0.0, 0.02, 0.15, 1.0];
+/// Gaps of the two in between at most, over what springs are pressed in by at most.
+const NEAR: [f64; 2] = [0.5, 8.0];
 
 /// What a zone is like at some place: what acts, what has cracked, what rubs, and its gap.
 pub(crate) type Local = [f64; 4];
@@ -43,6 +45,16 @@ pub(crate) type Local = [f64; 4];
 #[inline]
 pub(crate) fn between<const N: usize>(from: &[f64; N], to: &[f64; N], part: f64) -> [f64; N] {
     std::array::from_fn(|k| from[k] + part * (to[k] - from[k]))
+}
+
+/// How far it goes on to hold on the way from 0 to `most`, or that.
+fn up_to(most: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    let (mut less, mut more) = (0.0, most);
+    while !holds(more) && more - less > ROUNDING {
+        let half = 0.5 * (less + more);
+        *if holds(half) { &mut less } else { &mut more } = half;
+    }
+    more
 }
 
 /// Three points and one of nothing.
@@ -118,12 +130,17 @@ impl Zone {
         [[from, all - last], [to, last], [from, 0.0]]
     }
 
-    /// Points at its ends and in between, the closer to each other the nearer to the end where its `gap` is smaller: what closes of it in a step is as narrow then as
-    /// what a joint closes. They bear no less than the zone, as points at its ends do, and of what those lose as they are placed anew hardly anything.
-    pub fn closing(&self, gap: &impl Fn(f64) -> f64) -> [[f64; 2]; 4] {
-        let [[from, near], [to, far], _] = self.ends();
-        let first = gap(from) <= gap(to);
-        let places = CLOSING.map(|part| if first { from + part * (to - from) } else { to - part * (to - from) });
+    /// Points at its ends and in between, the closer to each other the nearer to the end where its gap, which is `apart`, is smaller: what closes of it in a step is as
+    /// narrow then as what a joint closes. A gap that widens fast is closed in part by what its springs are pressed in by at most, `deep`. They bear no less than the zone,
+    /// as points at its ends do, and of what those lose as they are placed anew hardly anything.
+    pub fn closing(&self, apart: &impl Fn(f64) -> f64, deep: f64) -> [[f64; 2]; 4] {
+        let ([from, to], [[_, near], [_, far], _]) = (self.between, self.ends());
+        let first = apart(from) <= apart(to);
+        let place = |part: f64| if first { from + part * (to - from) } else { to - part * (to - from) };
+        let within = |part: f64, gap: f64| up_to(part, |part| apart(place(part)) <= gap * deep);
+        let [start, close, farther, end] = CLOSING;
+        let close = within(close, NEAR[0]);
+        let places = [start, close, within(farther, NEAR[1]).max(2.0 * close), end].map(place);
         // Of the straight line that acts so much at its ends: none where that is below 0 at one of them, as of two parts.
         let [start, end] = [2.0 * near - far, 2.0 * far - near].map(|acts| 2.0 * acts / (to - from));
         if start < 0.0 || end < 0.0 {
@@ -174,7 +191,7 @@ mod tests {
         // What closes bears no less than its zone, however far it does.
         let mut opened = Zone::default();
         opened.add([0.2, 0.8].map(|at| (at, [1.0 - 0.5 * at, 1.0, 1.0, at - 0.2])));
-        for places in [opened.ends().to_vec(), opened.closing(&|at| at).to_vec()] {
+        for places in [opened.ends().to_vec(), opened.closing(&|at| at - 0.2, 0.01).to_vec()] {
             let stored = |way: f64| places.iter().map(|[at, acts]| acts * (way - at).max(0.0).powi(2)).sum::<f64>();
             let zone = |way: f64| {
                 let (closed, acts) = (way - 0.2, 1.0 - 0.5 * way);

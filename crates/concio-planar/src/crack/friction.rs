@@ -78,19 +78,22 @@ impl Crack {
         };
         let (stiffness, damping) = (law.normal_stiffness(), law.normal_damping());
         let last = self.crushed.len().saturating_sub(1) as f64;
-        let Crack { fibres, crushed, .. } = self;
+        // What is pressed in beyond that is crushed.
+        let most = law.crushing / stiffness;
+        let Crack { fibres, crushed, shallower, .. } = self;
         let opens = |x: f64| open[0] + x * (open[1] - open[0]);
-        let slides = |x: f64| between(line, x)[1];
-        let bears = |x: f64, mu: f64, [pressed, sprung]: [f64; 2]| {
-            let damped = pressed * damping * (parting[0] + x * (parting[1] - parting[0]));
-            let force = stiffness * sprung;
-            let force = if parting == [0.0; 2] || force == 0.0 { force } else { (force - damped).max(0.0) };
-            Stands { slide: slides(x), most: mu * force.min(pressed * law.crushing), pressed }
-        };
         let deep = |x: f64| crushed.get((x * last).round() as usize).copied().unwrap_or(0.0);
         let around = |x: f64| {
             let ends = [(x - HALF).max(0.0), (x + HALF).min(1.0)];
-            bears(x, mu(x), above(ends.map(|x| -opens(x) - deep(x))))
+            // In the middle of a step not all is crushed yet that is by its end.
+            let [pressed, sprung] = above(ends.map(|x| {
+                let before = shallower.get((x * 2.0 * (FIBRES - 1) as f64).round() as usize);
+                if still { -opens(x) - deep(x) } else { (-opens(x) - before.unwrap_or(&0.0)).min(most) }
+            }));
+            let damped = pressed * damping * (parting[0] + x * (parting[1] - parting[0]));
+            let force = stiffness * sprung;
+            let force = if parting == [0.0; 2] || force == 0.0 { force } else { (force - damped).max(0.0) };
+            Stands { slide: between(line, x)[1], most: mu(x) * force.min(pressed * law.crushing), pressed }
         };
         let Sheared { mut whole, mut energy } = if even && least == largest {
             fibres.hang(hangs);
@@ -103,6 +106,12 @@ impl Crack {
         } else {
             fibres.follow(along, 0..FIBRES, around)
         };
+        if !even {
+            let places = (2 * (FIBRES - 1)) as f64;
+            for (n, depth) in shallower.iter_mut().enumerate() {
+                *depth = crushed.get((n as f64 / places * last).round() as usize).copied().unwrap_or(0.0);
+            }
+        }
         // Friction took this of points that were pressed less in the step than at its end.
         let rubbed = std::mem::take(&mut fibres.rubbed);
         let most = (before + if still { rubbed } else { 0.0 }).max(0.0);

@@ -19,6 +19,11 @@ const SPENT: f64 = 0.01;
 const RINGS: f64 = 5e-3;
 /// How many steps ahead it is looked whether a load crushes a joint as a whole: how it swings until then decides how far.
 const NEARS: f64 = 50.0;
+/// What a joint bears before it closes, over all that it takes as it closes and over the energy of motion, from which it counts.
+const EARLY: f64 = 0.01;
+const EARLY_COUNTS: f64 = 1e-5;
+/// What is crushed of an edge in a whole step, over what its springs are pressed in by where that begins, from which it counts.
+const FAST: f64 = 0.02;
 /// Force that falls at once over weight and load, from which it counts.
 const GIVES_WAY: f64 = 0.05;
 /// Part by which what a rigid point bears grows in half a step at most where it grows on so.
@@ -31,7 +36,11 @@ const SHEARED: f64 = 1e-9;
 impl Motion {
     /// Whether something happens at an instant of the step of `h` [s], as it was solved, that counts.
     pub(super) fn jolts(&self, h: f64) -> bool {
-        !self.setting.still && (self.lands() || self.sudden && self.lets_go(h) || self.turns_round(h))
+        !self.setting.still
+            && (self.lands()
+                || self.crushes && self.closes_early(h)
+                || self.sudden && self.lets_go(h)
+                || self.turns_round(h))
     }
 
     /// Whether so much is lost as rigid joints close in the step that it counts when in it they do.
@@ -53,15 +62,40 @@ impl Motion {
     }
 
     /// Whether bonds take so much of the motion in a step of `h` [s] that it counts how what they held rings then, or a joint nears its strength as a whole; or did a
-    /// little before.
-    pub(super) fn rings(&mut self, h: f64) -> bool {
+    /// little before. Of a step that was not halved `soon` before, only the joint counts: how its spring swings takes shorter ones.
+    pub(super) fn rings(&mut self, h: f64, soon: bool) -> bool {
         if self.setting.still {
             return false;
         }
-        if self.spent() > SPENT * self.energy_of_motion(RINGS) || self.crushes && self.nears_crushing(h) {
+        let nears = self.crushes && self.nears_crushing(h);
+        if nears || soon && self.spent() > SPENT * self.energy_of_motion(RINGS) {
             self.rings_until = self.time + RINGS;
         }
-        self.time < self.rings_until
+        nears || soon && (self.time < self.rings_until || self.crushes && self.crushes_fast(h))
+    }
+
+    /// Whether joints that can be crushed bear so much before they close that it counts: what closes in a step bears in all of it, and what that takes crushes
+    /// nothing.
+    fn closes_early(&self, h: f64) -> bool {
+        let crushing = |(_, owner): &(&Contact, &Owner)| {
+            owner.part == Part::Dry && self.laws.of(self.pairs[owner.pair].link).crushing.is_finite()
+        };
+        let took = |(contact, owner): (&Contact, &Owner)| {
+            let open = owner.start.gap + self.pairs[owner.pair].points[owner.point].crushed;
+            let way = -0.5 * h * (owner.start.velocity[0] + contact.velocity(&self.after)[0]);
+            let force = contact.impulse[0] / h;
+            [force * open.min(way).max(0.0), (force * way).max(0.0)]
+        };
+        let contacts = self.contacts.iter().zip(&self.owners);
+        let [early, all] = contacts.filter(crushing).map(took).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+        let motion = self.energy_of_motion(SETTLES * self.setting.step);
+        early > EARLY * all && early > EARLY_COUNTS * motion
+    }
+
+    /// Whether the edge of some joint is crushed so fast in a step of `h` [s] that it counts how what bears there changes meanwhile.
+    fn crushes_fast(&self, h: f64) -> bool {
+        let part = FAST * h / self.setting.step;
+        self.any_crushing(h, |crack, law, _, gaps| crack.crushes_by(law, gaps(1.0)) > part)
     }
 
     /// Whether some joint is crushed soon as a whole if what presses it goes on to grow as in this step of `h` [s].

@@ -898,8 +898,10 @@ fn a_joint_that_is_crushed_to_and_fro_is_one_of_strips() {
     }
 }
 
-/// A stone of 0.5 m × 1 m on a joint that is crushed, as half-sines at its centre rock it to and fro: across and along `k` N/m stiff with dashpots `c` N s/m.
+/// A stone on a joint that is crushed, as half-sines of `pushes` N at its centre rock it to and fro: across and along `k` N/m stiff with dashpots `c` N s/m.
 struct Rocked {
+    size: [f64; 2],
+    pushes: [f64; 2],
     mass: f64,
     k: [f64; 2],
     c: [f64; 2],
@@ -913,53 +915,54 @@ impl Rocked {
     fn of(ratio: f64) -> Self {
         let mass = block([0.5, 1.0]).mass;
         let k = [3.6e9, 1.5e9];
-        Rocked { mass, k, c: k.map(|k| 2.0 * ratio * (k * mass).sqrt()), crushing: 30e3 }
+        let c = k.map(|k| 2.0 * ratio * (k * mass).sqrt());
+        Rocked { size: [0.5, 1.0], pushes: [1650.0, -1500.0], mass, k, c, crushing: 30e3 }
     }
 
-    fn force(time: f64) -> f64 {
+    fn force(&self, time: f64) -> f64 {
         let half = |from: f64, most: f64| {
             let part = (time - from) / 0.3;
             if (0.0..1.0).contains(&part) { most * (0.5 * TAU * part).sin() } else { 0.0 }
         };
-        half(0.05, 1650.0) + half(0.4, -1500.0)
+        half(0.05, self.pushes[0]) + half(0.4, self.pushes[1])
     }
 
-    /// Largest turn and what crushing took [J].
-    fn moves(&self, step: f64) -> [f64; 2] {
+    /// Largest turn, and what crushing and friction took [J].
+    fn moves(&self, step: f64) -> [f64; 3] {
         let law = Law {
             normal: Normal::Springs { both: 0.0, press: self.k[0], damping: self.c[0] },
             shear: Shear { stiffness: self.k[1], damping: self.c[1], series: true },
             crushing: self.crushing,
             ..Law::dry(Some(Friction::coulomb(Self::MU)))
         };
-        let rocked = system(block([0.5, 1.0]), law);
+        let rocked = system(block(self.size), law);
         let mut motion = Motion::new(&rocked, Setting::new(step));
         assert!(motion.stand(1e-9, 4000));
         let mut turn = 0.0f64;
         for n in 0..(Self::LASTS / step).round() as usize {
-            motion.apply(0, [Self::force((n as f64 + 0.5) * step), 0.0, 0.0]);
+            motion.apply(0, [self.force((n as f64 + 0.5) * step), 0.0, 0.0]);
             motion.go(step, &|_, _| Forcing::default());
             turn = turn.max(motion.places[0].angle.abs());
         }
-        [turn, motion.account.bond]
+        [turn, motion.account.bond, motion.account.friction]
     }
 
-    /// The same of 400 strips by short explicit steps.
-    fn strips(&self) -> [f64; 2] {
-        const STRIPS: usize = 400;
+    /// The same of strips by short explicit steps.
+    fn strips<const STRIPS: usize>(&self) -> [f64; 3] {
         const STEP: f64 = 2e-6;
         let part = 1.0 / STRIPS as f64;
         let mut crushed = [0.0f64; STRIPS];
-        let inertia = [self.mass, self.mass, self.mass * 1.25 / 12.0];
+        let [length, height] = self.size;
+        let inertia = [self.mass, self.mass, self.mass * (length * length + height * height) / 12.0];
         let (mut at, mut v) = ([0.0, -self.mass * G / self.k[0], 0.0], [0.0f64; 3]);
-        let (mut borne, mut turn, mut taken) = ([0.0f64; STRIPS], 0.0f64, 0.0);
+        let (mut borne, mut turn, mut taken, mut rubbed) = ([0.0f64; STRIPS], 0.0f64, 0.0, 0.0);
         for n in 0..(Self::LASTS / STEP).round() as usize {
             let (sin, cos) = at[2].sin_cos();
-            let mut bears = [Self::force((n as f64 + 0.5) * STEP), -self.mass * G, 0.0];
+            let mut bears = [self.force((n as f64 + 0.5) * STEP), -self.mass * G, 0.0];
             for (strip, (crushed, borne)) in crushed.iter_mut().zip(&mut borne).enumerate() {
-                let x = 0.5 * ((strip as f64 + 0.5) * part - 0.5);
-                let arm = [x * cos + 0.5 * sin, x * sin - 0.5 * cos];
-                let sunk = -(at[1] + x * sin + 0.5 * (1.0 - cos));
+                let x = length * ((strip as f64 + 0.5) * part - 0.5);
+                let arm = [x * cos + 0.5 * height * sin, x * sin - 0.5 * height * cos];
+                let sunk = -(at[1] + x * sin + 0.5 * height * (1.0 - cos));
                 let further = sunk - self.crushing / self.k[0] - *crushed;
                 if further > 0.0 {
                     taken += part * further * self.crushing;
@@ -972,7 +975,9 @@ impl Rocked {
                     0.0
                 };
                 let (slides, most) = (v[0] - v[2] * arm[1], Self::MU * pressed);
-                *borne = (*borne - STEP * part * self.k[1] * slides).clamp(-most, most);
+                let sticks = *borne - STEP * part * self.k[1] * slides;
+                *borne = sticks.clamp(-most, most);
+                rubbed += (sticks - *borne).abs() * borne.abs() / (part * self.k[1]);
                 let rubs = (*borne - part * self.c[1] * slides).clamp(-most, most);
                 bears = [bears[0] + rubs, bears[1] + pressed, bears[2] + pressed * arm[0] - rubs * arm[1]];
             }
@@ -982,7 +987,7 @@ impl Rocked {
             });
             turn = turn.max(at[2].abs());
         }
-        [turn, taken]
+        [turn, taken, rubbed]
     }
 }
 
@@ -993,9 +998,9 @@ fn a_joint_that_rocking_crushes_is_one_of_strips() {
     let steps = [(1e-3, [0.02, 0.025]), (1e-4, [0.01; 2]), (2e-5, [0.01; 2])];
     for (ratio, steps) in [(0.0, &steps[..2]), (0.05, &steps)] {
         let rocked = Rocked::of(ratio);
-        let [turn, taken] = rocked.strips();
+        let [turn, taken, _] = rocked.strips::<400>();
         for (step, within) in steps {
-            let [turns, takes] = rocked.moves(*step);
+            let [turns, takes, _] = rocked.moves(*step);
             let subject =
                 format!("Crushing: stone of 0.5 m × 1 m rocked to and fro, ζ = {ratio}, in steps of {step} s");
             agrees!(format!("{subject}; turn"), "400 strips in steps of 2 µs", "rad", turns, turn, within[0]);
@@ -1009,6 +1014,41 @@ fn a_joint_that_rocking_crushes_is_one_of_strips() {
             );
         }
     }
+}
+
+/// A stone of 0.8 m × 1.6 m that is shaken rocks back over the edge of a rigid joint that it crushed: in a step of 1 ms that sinks in by many times what its springs do.
+/// It slides and rubs as in steps of a twentieth.
+#[test]
+fn a_rigid_joint_that_rocking_crushes_rubs_alike_in_long_steps() {
+    let (size, crushing) = ([0.8, 1.6], 120e3);
+    let k = crushing / (1e-5 * size[0]);
+    let moves = |step: f64| {
+        let law = Law {
+            normal: Normal::Springs { both: 0.0, press: k, damping: 0.0 },
+            shear: Shear { stiffness: k, damping: 0.0, series: true },
+            crushing,
+            ..Law::dry(Some(Friction::coulomb(0.7)))
+        };
+        let mut motion = Motion::new(&system(block(size), law), Setting::new(step));
+        assert!(motion.stand(1e-9, 4000));
+        let mut slip = 0.0f64;
+        for _ in 0..(2.0 / step).round() as usize {
+            motion.go(step, &|from, to| {
+                let time = 0.5 * (from + to);
+                let shakes = 6.2 * (1.3 * TAU * time).sin() * (0.25 * TAU * time).sin().powi(2);
+                Forcing { base: [shakes * (to - from), 0.0], held: 0.0 }
+            });
+            slip = slip.max(motion.seen[0].slide.abs());
+        }
+        [slip, motion.account.bond, motion.account.friction]
+    };
+    let [slip, taken, rubbed] = moves(5e-5);
+    let [slips, takes, rubs] = moves(1e-3);
+    let subject = "Crushing: stone of 0.8 m × 1.6 m shaken on a rigid joint of 0.5 MPa, in 1 ms";
+    let short = "steps of 50 µs";
+    agrees!(format!("{subject}; slip"), short, "m", slips, slip, 1e-2);
+    agrees!(format!("{subject}; energy of crushing"), short, "J", takes, taken, 1e-2);
+    agrees!(format!("{subject}; energy of friction over that"), short, "", rubs / takes, rubbed / taken, abs: 1e-3);
 }
 
 /// A stone on soft springs that half-sines press to 1.1 of what its joint bears, in steps of 1 ms: what crushing takes hangs on how the stone swings until then.
