@@ -7,6 +7,7 @@ use concio_study::table::Table;
 use serde_json::{Value, json};
 
 use super::Subject;
+use super::text::tangent;
 
 /// All mechanisms, one line each.
 pub fn table(subject: &Subject) -> Table {
@@ -18,7 +19,7 @@ pub fn table(subject: &Subject) -> Table {
     table.texts("equation", texts(&|f| f.kind.equation().into()));
     table.texts("counts", texts(&|f| if f.counts { "yes" } else { "no" }.into()));
     table.numbers("hinge", "m", numbers(&|f| Some(f.hinge)));
-    table.numbers("tan_crack", "", numbers(&|f| f.slopes.first().copied()));
+    table.numbers("tan_crack", "", numbers(&|f| f.slopes.first().copied().and_then(tangent)));
     table.numbers("setback", "m", numbers(&|f| Some(f.setback)));
     table.numbers("alpha_0", "", numbers(&|f| Some(f.multiplier())));
     table.numbers("participation", "", numbers(&|f| Some(f.pushover.participation)));
@@ -96,7 +97,7 @@ fn mechanism(found: &Found, trilinear: Option<[f64; 2]>) -> Value {
         "equation": found.kind.equation(),
         "counts": found.counts,
         "hinge": found.hinge,
-        "cracks": found.slopes,
+        "cracks": found.slopes.iter().copied().map(tangent).collect::<Vec<_>>(),
         "setback": found.setback,
         "multiplier": found.multiplier(),
         "shares": shares,

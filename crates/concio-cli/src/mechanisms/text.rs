@@ -100,7 +100,12 @@ fn table(chosen: &[&Found], checked: bool) -> Vec<Vec<String>> {
 
 /// tan β or tan ϑ in words: a level hinge has none.
 pub(super) fn slope(value: f64) -> String {
-    if value > LEVEL_HINGE { "90°".into() } else { fixed(value, 3) }
+    tangent(value).map_or_else(|| "90°".into(), |tan| fixed(tan, 3))
+}
+
+/// tan β or tan ϑ; none of a level hinge.
+pub(super) fn tangent(value: f64) -> Option<f64> {
+    Some(value).filter(|tan| *tan <= LEVEL_HINGE)
 }
 
 /// tan ϑ above which a hinge is level: what rounding leaves of that of 90°.
