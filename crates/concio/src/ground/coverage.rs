@@ -29,8 +29,9 @@ const SMALLEST_PEAK: f64 = 0.01;
 const LARGEST_PEAK: f64 = 60.0;
 /// Peak of nearly all records, 2 g [m/s²].
 const STRONGEST: f64 = 2.0 * STANDARD_GRAVITY;
-/// The same of a motion whose peak the wall file names: the largest that were recorded have 3 to 4 g.
-const NAMED: f64 = 3.0 * STANDARD_GRAVITY;
+/// The same of a motion whose peak the wall file names, in the g of wall files: the largest that were recorded have 3 to 4 g.
+const NAMED: f64 = 3.0 * G * (1.0 + ROUNDING);
+const ROUNDING: f64 = 1e-9;
 /// Below this peak hardly a wall moves [m/s²].
 const WEAK: f64 = 0.05 * STANDARD_GRAVITY;
 /// Difference from g of a factor that is meant to be g: 9.8, 9.80665, 9.81.
@@ -278,9 +279,10 @@ pub fn rare_peak(record: &Record) -> Option<String> {
 /// Says of a peak [m/s²] above `most` that hardly an earthquake had that it is one.
 fn beyond(key: &str, peak: f64, most: f64, scales: &str) -> Option<Warning> {
     (peak > most).then(|| {
-        let most = rounded(most / STANDARD_GRAVITY, 3);
+        let g = if most == NAMED { G } else { STANDARD_GRAVITY };
+        let most = rounded(most / g, 3);
         // As many digits as tell it from the limit.
-        let peak = (3..9).map(|digits| rounded(peak / STANDARD_GRAVITY, digits)).find(|peak| *peak > most).unwrap_or(most);
+        let peak = (3..9).map(|digits| rounded(peak / g, digits)).find(|peak| *peak > most).unwrap_or(most);
         let [peak, most] = [peak, most].map(shown);
         let text = format!(
             "{key}: its peak acceleration is {peak} g as it moves the wall, more than {most} g, which few records have: look at its unit, its interval, {scales}"
