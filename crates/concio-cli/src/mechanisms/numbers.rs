@@ -7,7 +7,7 @@ use concio_mechanisms::survey::{Found, Kind};
 use concio_mechanisms::wall::Wall;
 use concio_study::table::Table;
 
-use super::text::tangent;
+use super::rows::tangent;
 use crate::format::significant;
 
 /// A line of the table.

@@ -7,7 +7,6 @@ use concio_study::table::Table;
 use serde_json::{Value, json};
 
 use super::Subject;
-use super::text::tangent;
 
 /// All mechanisms, one line each.
 pub fn table(subject: &Subject) -> Table {
@@ -121,6 +120,14 @@ fn mechanism(found: &Found, trilinear: Option<[f64; 2]>) -> Value {
         })),
         "notes": found.notes,
     })
+}
+
+/// tan ϑ above which a hinge is level: what rounding leaves of that of 90°.
+const LEVEL_HINGE: f64 = 1e9;
+
+/// tan β or tan ϑ; none of a level hinge.
+pub(super) fn tangent(value: f64) -> Option<f64> {
+    Some(value).filter(|tan| *tan <= LEVEL_HINGE)
 }
 
 fn linear(check: Result<Linear, Missing>) -> Value {

@@ -100,16 +100,8 @@ fn table(chosen: &[&Found], checked: bool) -> Vec<Vec<String>> {
 
 /// tan β or tan ϑ in words: a level hinge has none.
 pub(super) fn slope(value: f64) -> String {
-    tangent(value).map_or_else(|| "90°".into(), |tan| fixed(tan, 3))
+    rows::tangent(value).map_or_else(|| "90°".into(), |tan| fixed(tan, 3))
 }
-
-/// tan β or tan ϑ; none of a level hinge.
-pub(super) fn tangent(value: f64) -> Option<f64> {
-    Some(value).filter(|tan| *tan <= LEVEL_HINGE)
-}
-
-/// tan ϑ above which a hinge is level: what rounding leaves of that of 90°.
-const LEVEL_HINGE: f64 = 1e9;
 
 fn ratio(check: Result<f64, Missing>) -> String {
     let short = |why: Missing| -> &dyn Display {
