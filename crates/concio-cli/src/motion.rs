@@ -34,7 +34,10 @@ pub fn describe(prepared: &Prepared, folder: &Path) -> Result<Rows, Failure> {
                 found.push(("", peak(&made)));
                 used(&mut found, &made, duration);
             }
-            closed => found.push((name, closed_form(closed))),
+            closed => {
+                found.push((name, closed_form(closed)));
+                found.extend(sense(closed).filter(|_| name == "base").map(|sense| ("", sense)));
+            }
         }
     }
     Ok(found)
@@ -172,6 +175,23 @@ pub fn short(signal: &Signal) -> String {
         ),
         closed => closed_form(closed),
     }
+}
+
+/// What [`sense`] begins with.
+pub const PUSHES: &str = "pushes the wall to the";
+
+/// Where what pushes one way pushes the wall: inertia points against the acceleration of the base.
+pub fn sense(signal: &Signal) -> Option<String> {
+    let acceleration = match signal {
+        Signal::Tilt(tilt) => tilt.acceleration.si(),
+        Signal::Pulse(pulse) => match pulse.shape {
+            PulseShape::Rectangular | PulseShape::HalfSine => pulse.acceleration.si(),
+            PulseShape::OneSine | PulseShape::Ricker => return None,
+        },
+        _ => return None,
+    };
+    let side = if acceleration > 0.0 { "left" } else { "right" };
+    Some(format!("{PUSHES} {side}"))
 }
 
 /// A motion that is no record, with its numbers.

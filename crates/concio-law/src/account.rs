@@ -295,7 +295,18 @@ pub struct Totals {
 /// Part by which a base shear has to exceed an earlier one to count as another: of one that lasts, the beginning is told.
 const LASTING: f64 = 1e-4;
 
+/// Part of the works done on the wall, their sizes added, that their net is taken for at least.
+const CANCELLING: f64 = 0.2;
+
 impl Totals {
+    /// Largest residual of the energy account over the largest energy in play, the works done on the wall or what it had at the start, `initial` [J];
+    /// 0 when there was none. The work at the end is no measure: what a driven beam gives it may take back. Nor is the net of works that cancel: a
+    /// beam that tips a rigid wall brings what its weights take, and what is left is known no better than they are. It counts for no less than a
+    /// fifth of them.
+    pub fn residual_relative(&self, initial: f64) -> f64 {
+        let scale = self.peak_input.max(initial.abs()).max(CANCELLING * self.peak_work);
+        if scale == 0.0 { 0.0 } else { self.peak_residual / scale }
+    }
     /// Takes the size of the base shear at `t` [N], with the tops at `top` [m]; `marked` is the one at [`Totals::base_shear_time`].
     #[inline]
     pub fn raise_base_shear(&mut self, marked: &mut f64, shear: f64, t: f64, top: f64) {
@@ -318,6 +329,22 @@ pub struct Collapse {
     pub way: f64,
     /// Whether it had turned over; else it had fallen.
     pub turned: bool,
+    /// What the run until then was like; none in results of earlier versions.
+    #[serde(default)]
+    pub before: Option<Before>,
+}
+
+/// How far a run may be believed that ended in a collapse: until then.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Before {
+    /// Largest residual of the energy account over the largest energy in play, from 0.
+    pub residual: f64,
+    /// Steps.
+    pub steps: u64,
+    /// Steps whose contact was left unsolved.
+    pub unsolved: u64,
+    /// Steps without inertia that ended before the wall had come to rest.
+    pub moving: u64,
 }
 
 impl Collapse {

@@ -8,8 +8,10 @@ use clap::Parser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use concio::InputError;
 use concio::case::{self, CaseFile, Syntax, canonical_json};
+use concio::ground::coverage::odd_unit;
 use concio::ground::signal::from_record;
 use concio::run::{prepare, prepare_moved};
+use concio::warning::{Warning, WarningKind};
 use concio_cli::args::Cli;
 use concio_cli::commands::{self, Answer, wall_file};
 use concio_cli::failure::Failure;
@@ -114,7 +116,13 @@ impl Case {
                 None => prepare(&self.file),
                 Some(record) => prepare_moved(&self.file, from_record(&record.history)),
             };
-            let prepared = prepared.map_err(|e| self.raised(wall_file::all(&self.file, e)))?;
+            let mut prepared = prepared.map_err(|e| self.raised(wall_file::all(&self.file, e)))?;
+            // Only here it is known in which unit the array was given; the last of the doubts tells that no file gives the motion.
+            let as_given = base.filter(|record| !record.sized);
+            let odd = as_given.and_then(|record| odd_unit("motion.base: the unit of the record", &record.history));
+            let odd = odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text));
+            let last = prepared.model.warnings.len().saturating_sub(1);
+            prepared.model.warnings.splice(last..last, odd);
             let warnings = prepared.model.warnings.iter();
             let doubts = warnings.map(|w| (w.clone(), self.file.line_of(w).filter(|_| self.written))).collect();
             Ok::<_, Raised>(Prepared { prepared: Arc::new(prepared), text: self.text().map(str::to_string), doubts })

@@ -25,6 +25,8 @@ pub struct Record {
     pub history: History,
     /// The table of a wall file that gives it; none when no file does.
     given: Option<Map<String, Value>>,
+    /// Whether its peak was chosen, by a factor or as such: its unit says nothing then.
+    pub sized: bool,
     /// Names of the components in its file.
     #[pyo3(get)]
     components: Vec<String>,
@@ -61,7 +63,8 @@ impl Record {
             Ok::<_, Error>((library.record(&input, Path::new(""))?, components))
         };
         let (history, components) = py.detach(read).map_err(Raised::from)?;
-        Ok(Record { history, given: Some(given), components })
+        let sized = input.scale.is_some() || input.pga.is_some();
+        Ok(Record { history, given: Some(given), sized, components })
     }
 
     /// Of samples, `unit` being that of an acceleration.
@@ -100,7 +103,7 @@ impl Record {
             channel: String::new(),
             remarks: Vec::new(),
         };
-        Ok(Record { history, given: None, components: Vec::new() })
+        Ok(Record { history, given: None, sized: false, components: Vec::new() })
     }
 
     /// Another record, treated as these keys of a wall file say, given as JSON.
@@ -115,7 +118,8 @@ impl Record {
         let last = |keys: &Map<String, Value>| keys.keys().filter_map(place).max();
         let given = self.given.as_ref().filter(|given| last(given) < keys.keys().filter_map(place).min());
         let given = given.map(|given| given.clone().into_iter().chain(keys).collect());
-        Ok(Record { history, given, components: self.components.clone() })
+        let sized = self.sized || step.scale.is_some() || step.pga.is_some();
+        Ok(Record { history, given, sized, components: self.components.clone() })
     }
 
     /// What a wall file in `folder` says of it, as JSON; none where it has no words for it.

@@ -208,6 +208,9 @@ pub fn of_study(plan: &crate::Plan) -> Result<(Question, Vec<Subject>)> {
     Ok((question, subjects))
 }
 
+/// Why a wall cannot be asked for its bonds.
+pub const UNBONDED: &str = "no joint of this wall is bonded, and `bond` asks for the strength of bonds";
+
 /// Why the question cannot be asked of this wall; its key is `first-crack.criterion` or `motion`.
 ///
 /// # Errors
@@ -227,10 +230,7 @@ pub fn objection(question: &Question, subject: &Subject) -> Result<Option<InputE
         return Ok(None);
     }
     let (what, allowed) = match question.rule.criterion {
-        Criterion::Bond => (
-            "no joint of this wall is bonded, and `bond` asks for the strength of bonds",
-            "`[joint.bond]` in the wall file, or criterion `opening` or `slip`",
-        ),
+        Criterion::Bond => (UNBONDED, "`[joint.bond]` in the wall file, or criterion `opening` or `slip`"),
         Criterion::Opening => ("this wall has no head joints that could open", "criterion `bond` or `slip`"),
         Criterion::Slip => ("this wall has no bed joints that could slip", "criterion `bond` or `opening`"),
     };

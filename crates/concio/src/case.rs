@@ -329,6 +329,15 @@ pub struct Course {
     pub offset: Length,
 }
 
+impl Course {
+    /// Where it begins and ends along its panel [m]; `head` is the thickness of the mortar between its bricks.
+    pub fn ends(&self, head: Length) -> [f64; 2] {
+        let left = self.offset.si();
+        let mortar = head.si() * self.bricks.len().saturating_sub(1) as f64;
+        [left, left + self.bricks.iter().map(|length| length.si()).sum::<f64>() + mortar]
+    }
+}
+
 /// A seeded irregular texture: course heights and brick lengths uniform within bounds, all courses of one width.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -392,6 +392,24 @@ fn under_beam(wall: &Wall, panel: usize) -> Option<String> {
     ))
 }
 
+/// Height over thickness from which no wall stands, floors or not: three storeys of half a brick have 75.
+const SLENDEREST: f64 = 70.0;
+
+/// Says of a panel that it is higher than any wall of its thickness.
+fn slender(wall: &Wall, panel: usize) -> Option<String> {
+    let blocks = || wall.blocks.iter().filter(|block| block.panel == panel);
+    let [height, thickness] = blocks().fold([0.0, f64::INFINITY], |[h, t], b| [b.y[1].max(h), b.thickness.min(t)]);
+    (height > SLENDEREST * thickness).then(|| {
+        format!(
+            "panel[{panel}].brick.thickness is {} m, and the panel {} m high, {:.0} times as much: walls have up to 40; look at thickness, \
+             `brick.height` and `courses`",
+            plausible::rounded(thickness, 4),
+            plausible::rounded(height, 4),
+            height / thickness
+        )
+    })
+}
+
 /// Part of the mass of all that is shaken which a load may lack without a word.
 const LACKING: f64 = 0.05;
 
@@ -436,6 +454,8 @@ pub const NOT_IN_PLANE: &str = "out_of_plane is not read in the plane of the wal
 fn warnings(case: &Case, wall: &Wall, rubs: usize, idle: usize, reciprocal: bool) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let mut add = |kind, text: String| warnings.push(Warning::new(kind, text));
+    let slender = (0..wall.panels.len()).filter_map(|panel| slender(wall, panel));
+    slender.for_each(|text| add(WarningKind::UnlikelyNumber, text));
     if case.out_of_plane.is_some() {
         add(WarningKind::IdleKey, NOT_IN_PLANE.into());
     }

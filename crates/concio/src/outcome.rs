@@ -1,6 +1,6 @@
 //! What a run gives back.
 
-pub use concio_law::account::{Collapse, Totals};
+pub use concio_law::account::{Before, Collapse, Totals};
 use serde::{Deserialize, Serialize};
 
 use crate::bond::{Bond, BondRow};

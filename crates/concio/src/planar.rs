@@ -302,9 +302,34 @@ fn ties(case: &Case, wall: &Wall, offset: &[[f64; 2]]) -> Result<Vec<Rod>> {
     case.ties.iter().enumerate().map(rod).collect()
 }
 
-/// Says of ties that they are fixed outside of their block: a plate lies on it at the farthest.
+/// How far beside a wall its ties may be fixed to the base, over the larger of its sides: to frames and buttresses.
+const BUTTRESS: f64 = 2.0;
+
+/// How far a place is outside of the wall, over the larger of its sides, and the rectangle around it, if that is farther than ties go.
+fn far_from(wall: &Wall, at: [f64; 2]) -> Option<([[f64; 2]; 2], f64)> {
+    let around = [0, 1].map(|k| {
+        let sides = wall.blocks.iter().map(|block| if k == 0 { block.x } else { block.y });
+        // The base is at height 0.
+        let first = [if k == 0 { f64::INFINITY } else { 0.0 }, f64::NEG_INFINITY];
+        sides.fold(first, |e, side| [e[0].min(side[0]), e[1].max(side[1])])
+    });
+    let [x, y] = [0, 1].map(|k| (around[k][0] - at[k]).max(at[k] - around[k][1]).max(0.0));
+    let size = around.iter().map(|[from, to]| to - from).fold(0.0, f64::max);
+    let far = x.hypot(y);
+    (far > BUTTRESS * size).then_some((around, far))
+}
+
+/// Says of ties that they are fixed outside of their block: a plate lies on it at the farthest; on the base far from the wall.
 pub(crate) fn detached(case: &Case, wall: &Wall) -> Vec<String> {
     let doubt = |i: usize, key: &str, name: &String, at: [f64; 2]| {
+        if name == Tie::BASE {
+            let ([x, y], far) = far_from(wall, at)?;
+            let [px, py, far, x0, x1, y1] = [at[0], at[1], far, x[0], x[1], y[1]].map(|v| shown(rounded(v, 4)));
+            return Some(format!(
+                "tie[{i}].{key} is fixed to the base at x = {px} m, y = {py} m, {far} m away from the wall, which goes from x = {x0} to {x1} m and up to y = {y1} m; \
+                 look at its unit"
+            ));
+        }
         let block = wall.blocks.iter().find(|b| b.name == *name)?;
         let centre = block.centre();
         let place = [centre[0] + at[0], centre[1] + at[1]];

@@ -14,7 +14,7 @@ use crate::excitation::Excitation;
 use crate::failure::is_down;
 use crate::ground::signal::GroundMotion;
 use crate::model::Model;
-use crate::outcome::{Collapse, Deepest, TieRow, Totals};
+use crate::outcome::{Before, Collapse, Deepest, TieRow, Totals};
 use crate::planar::{Planar, Pushes, standing};
 use crate::record::{Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
 use crate::state;
@@ -560,7 +560,10 @@ impl Bodies {
         if state.totals.collapse.is_none()
             && let Some((collapse, event)) = self.collapse(model, state.t)
         {
-            state.totals.collapse = Some(collapse);
+            let Counters { steps, unsolved, moving, .. } = state.counters;
+            let residual = state.totals.residual_relative(state.energies.initial);
+            state.totals.collapse =
+                Some(Collapse { before: Some(Before { residual, steps, unsolved, moving }), ..collapse });
             tell(event);
         }
     }
@@ -675,7 +678,7 @@ impl Bodies {
         let joint = model.joints.iter().position(of_block)? as u32;
         let way = self.last.end.z[block].hypot(self.last.end.vertical[block]);
         let event = Event { time, joint, kind: EventKind::Collapse, value: way };
-        Some((Collapse { time, block, way, turned }, event))
+        Some((Collapse { time, block, way, turned, before: None }, event))
     }
 
     /// Appends sample `k` at `t` [s], and the frame if one is due. Forces and accelerations between the middles of two steps are those on the

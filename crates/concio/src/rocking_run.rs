@@ -237,7 +237,7 @@ impl<'m> Run<'m> {
         if let Some(Stop::Fallen { time, .. }) = stop {
             let block = state.z.len() - 1;
             let way = at.displacement.abs();
-            state.totals.collapse = Some(Collapse { time, block, way, turned: true });
+            state.totals.collapse = Some(Collapse { time, block, way, turned: true, before: None });
             heard.push(Event { time, joint: 0, kind: EventKind::Collapse, value: way });
         }
     }

@@ -16,10 +16,13 @@ use crate::args::Check;
 use crate::draw::wall::{self, Paint, Subject, kind_name, mass};
 use crate::failure::Failure;
 use crate::format::{columns, line, pairs, plain, seconds, si, significant};
+use crate::motion::PUSHES;
 use crate::{files, report};
 
 /// Most blocks of walls whose rest and first period are looked for.
 pub(super) const TRIED: usize = 2_000;
+/// Courses of one length that are named at most.
+const MOST_COURSES: usize = 8;
 const KINDS: [JointKind; 5] = [JointKind::Base, JointKind::Bed, JointKind::Head, JointKind::Connection, JointKind::Top];
 
 /// Validates a wall file and prints what it describes.
@@ -30,7 +33,11 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let file = wall_file::read(&args.file)?;
     let prepared = wall_file::prepare(&file)?;
     let model = &prepared.model;
-    let motion = wall_file::motion(&file, &prepared)?;
+    let mut motion = wall_file::motion(&file, &prepared)?;
+    if model.planar().is_some() && !planar::is_symmetric(&prepared.case, model) {
+        let pushes = motion.iter_mut().find(|(_, text)| text.starts_with(PUSHES));
+        pushes.into_iter().for_each(|(_, text)| text.push_str("; it is not symmetric: run the other sign too"));
+    }
     crate::warned::warn(&file, &model.warnings);
     if let Some(path) = &args.svg {
         let names = model.joint_names();
@@ -48,7 +55,11 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let mut falls = false;
     if let Some(own) = model.rocking() {
         general.extend(rocking_rows(own));
-    } else if model.wall.blocks.len() <= TRIED {
+    } else if model.wall.blocks.len() > TRIED {
+        let not_asked = format!("not asked of more than {TRIED} blocks; `concio run` settles the wall first");
+        general.extend(model.planar().map(|_| ("under its loads", not_asked)));
+        general.push(("first period", format!("not asked of more than {TRIED} blocks")));
+    } else {
         if let Some(own) = model.planar() {
             let rest = own.rest();
             falls = rest == Rest::Falls;
@@ -62,10 +73,7 @@ pub fn check(args: &Check) -> Result<(), Failure> {
             let damping = significant(100.0 * m.damping, 3);
             format!("{}, {}, damped by {damping} %", si(m.period, "s"), si(1.0 / m.period, "Hz"))
         };
-        general.push((
-            "first period",
-            mode.map_or_else(|| "none: joints are rigid, nothing holds a block, or the wall falls".into(), told),
-        ));
+        general.push(("first period", mode.map_or_else(|| no_period(model, falls), told)));
     }
     let case = &prepared.case;
     let stops = case
@@ -75,7 +83,9 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     general.push(("duration", format!("{}, {samples} samples kept{stops}", seconds(duration))));
     let (mut joints, bonds, ties) = match model.planar() {
         None => (joint_rows(model), bond_rows(case, model)?, Vec::new()),
-        Some(own) => (planar::joint_rows(model, own), planar::bond_rows(case, model)?, planar::tie_rows(case, own)),
+        Some(own) => {
+            (planar::joint_rows(model, own), planar::bond_rows(case, model)?, planar::tie_rows(case, model, own))
+        }
     };
     // Laws of joints are those of blocks, which a rocking wall has not.
     let devices = if model.rocking().is_some() { Vec::new() } else { device_rows(case, model)? };
@@ -88,8 +98,9 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let title = if title.is_empty() { String::new() } else { format!("{}\n\n", line(title)) };
     let but = if falls { ", but its wall does not stand under its loads" } else { "" };
     let text = format!(
-        "{title}{}\n{}{}\n{}{}{}{}{}\n{}{list}\n{} is a valid wall file{but}.\n",
+        "{title}{}\n{}{}{}\n{}{}{}{}{}\n{}{list}\n{} is a valid wall file{but}.\n",
         columns(&panel_rows(model)),
+        table(&course_rows(case, model)),
         openings::told(case)?,
         columns(&joints),
         table(&devices),
@@ -115,7 +126,7 @@ fn unknowns(model: &Model) -> usize {
 fn rocking_rows(own: &Rocking) -> Vec<(&'static str, String)> {
     let mechanism = format!("{}, hinge at {}", own.kind.what(), si(own.hinge, "m"));
     let holds = match own.compiled.d0() {
-        Some(d0) => format!("d0 = {} at its control point", si(d0.displacement, "m")),
+        Some(d0) => format!("d_C0 = {} at its control point", si(d0.displacement, "m")),
         None => "its weights hold at any turn".into(),
     };
     let sets_off = format!("at α = {}; {holds}", significant(own.compiled.multiplier(), 4));
@@ -128,7 +139,9 @@ fn rocking_rows(own: &Rocking) -> Vec<(&'static str, String)> {
 }
 
 fn panel_rows(model: &Model) -> Vec<Vec<String>> {
-    let mut rows = vec![["panel", "courses", "blocks", "width", "height", "mass"].map(String::from).to_vec()];
+    // A wall that rocks out of its plane is seen in section.
+    let across = if model.rocking().is_some() { "thickness" } else { "width" };
+    let mut rows = vec![["panel", "courses", "blocks", across, "height", "mass"].map(String::from).to_vec()];
     for (number, panel) in model.wall.panels.iter().enumerate() {
         let blocks: Vec<_> = model.wall.blocks.iter().filter(|b| b.panel == number).collect();
         let [left, right, top] = blocks.iter().fold([f64::INFINITY, f64::NEG_INFINITY, 0.0], |e, b| {
@@ -144,6 +157,42 @@ fn panel_rows(model: &Model) -> Vec<Vec<String>> {
         ]);
     }
     rows
+}
+
+/// Why a wall has no first period.
+fn no_period(model: &Model, falls: bool) -> String {
+    let contacts = model.shear.contact_of_joint();
+    let why = if falls {
+        "the wall falls"
+    } else if contacts.iter().any(Option::is_some) {
+        "its joints are rigid"
+    } else {
+        "nothing holds one of its blocks"
+    };
+    format!("none: {why}")
+}
+
+/// Lengths of courses that are listed one by one and differ, the most frequent first; nothing where all are one.
+fn course_rows(case: &Case, model: &Model) -> Vec<Vec<String>> {
+    let mut rows = vec![["courses of", "length", "number", "which"].map(String::from).to_vec()];
+    for (panel, info) in case.panels.iter().zip(&model.wall.panels) {
+        let mut lengths: Vec<(String, Vec<String>)> = Vec::new();
+        for (number, course) in panel.course_list.iter().enumerate() {
+            let [from, to] = course.ends(panel.mortar.head);
+            let (length, number) = (si(to - from, "m"), (number + 1).to_string());
+            match lengths.iter_mut().find(|(own, _)| *own == length) {
+                Some((_, which)) => which.push(number),
+                None => lengths.push((length, vec![number])),
+            }
+        }
+        lengths.sort_by_key(|(_, which)| std::cmp::Reverse(which.len()));
+        for (length, which) in lengths.iter().filter(|_| lengths.len() > 1) {
+            let more = if which.len() > MOST_COURSES { ", …" } else { "" };
+            let named = which.iter().take(MOST_COURSES).cloned().collect::<Vec<_>>().join(", ") + more;
+            rows.push(vec![info.name.clone(), length.clone(), which.len().to_string(), named]);
+        }
+    }
+    if rows.len() > 1 { rows } else { Vec::new() }
 }
 
 fn joint_rows(model: &Model) -> Vec<Vec<String>> {

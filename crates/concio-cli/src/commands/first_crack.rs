@@ -164,6 +164,12 @@ fn as_option(mut error: InputError, file: &Path) -> InputError {
     };
     match error.key.as_deref() {
         Some("motion.base") => error.help = Some("name accelerograms with --records".into()),
+        // Bonds are asked for where nothing is said.
+        Some("--criterion") if error.what.starts_with(concio_study::first_crack::UNBONDED) => {
+            error.key = Some("joint.bond".into());
+            error.allowed =
+                Some("`[joint.bond]` in the wall file, or `--criterion slip` or `--criterion opening`".into());
+        }
         Some("--criterion") => {}
         _ => return error,
     }

@@ -76,10 +76,15 @@ fn notes(args: &Record, channels: &[History], place: usize) {
     for remark in &history.remarks {
         files::note(&format!("note: {remark}"));
     }
-    for odd in [coverage::odd_peak(history), coverage::odd_interval(history), coverage::odd_length(history)]
-        .into_iter()
-        .flatten()
-    {
+    let what = if args.units.is_some() { "--units" } else { "the unit in the file" };
+    let odd = [
+        coverage::odd_unit(what, history),
+        coverage::odd_peak(history),
+        coverage::rare_peak(history),
+        coverage::odd_interval(history),
+        coverage::odd_length(history),
+    ];
+    for odd in odd.into_iter().flatten() {
         files::note(&format!("warning: {odd}"));
     }
 }

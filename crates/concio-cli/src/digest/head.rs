@@ -84,11 +84,11 @@ fn of_rocking(outcome: &Outcome, rocking: &Value) -> Vec<Answer> {
     };
     let peak = outcome.worst_drift().map_or(0.0, |row| row.peak);
     let side = if peak < 0.0 { "inwards" } else { "outwards" };
-    // The turn is told over d0 of its own side.
+    // The turn is told over θ0 of its own side; d_C0 is where the control point is then.
     let other = if peak < 0.0 { " outwards" } else { "" };
-    let d0 = of("d0").map_or("its weights hold at any turn".into(), |d0| format!("d0 = {}{other}", si(d0, "m")));
+    let d0 = of("d0").map_or("its weights hold at any turn".into(), |d0| format!("d_C0 = {}{other}", si(d0, "m")));
     let over = of("peak_over_d0");
-    let turn = over.map_or("–".into(), |over| format!("{} d0", significant(over, 4)));
+    let turn = over.map_or("–".into(), |over| format!("{} θ0", significant(over, 4)));
     let note = format!("{} at the control point, {side}; {d0}", si(peak.abs(), "m"));
     let turn = Answer::new("peak turn", turn, note).grave(over.is_some_and(|over| over > LIFE));
     vec![

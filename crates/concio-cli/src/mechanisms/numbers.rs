@@ -7,6 +7,7 @@ use concio_mechanisms::survey::{Found, Kind};
 use concio_mechanisms::wall::Wall;
 use concio_study::table::Table;
 
+use super::rows::tangent;
 use crate::format::significant;
 
 /// A line of the table.
@@ -63,7 +64,7 @@ fn lines(wall: &Wall, found: &Found) -> Vec<Line> {
             Kind::Flap | Kind::GableFlaps => "the slope that makes α0 least, no steeper than the texture's own l/h_b",
             _ => "the slope that makes α0 least, up to the texture's own l/h_b or the first opening",
         };
-        add(&name, with(*slope, ""), formula, DERIVED);
+        add(&name, tangent(*slope).map_or("none, ϑ = 90°".into(), |tan| with(tan, "")), formula, DERIVED);
     }
     if let Kinematics::Body(body, _) = &pushover.kinematics {
         let sum = |of: &dyn Fn(&concio_mechanisms::body::Weight) -> f64| body.weights.iter().map(of).sum::<f64>();

@@ -18,7 +18,7 @@ pub fn table(subject: &Subject) -> Table {
     table.texts("equation", texts(&|f| f.kind.equation().into()));
     table.texts("counts", texts(&|f| if f.counts { "yes" } else { "no" }.into()));
     table.numbers("hinge", "m", numbers(&|f| Some(f.hinge)));
-    table.numbers("tan_crack", "", numbers(&|f| f.slopes.first().copied()));
+    table.numbers("tan_crack", "", numbers(&|f| f.slopes.first().copied().and_then(tangent)));
     table.numbers("setback", "m", numbers(&|f| Some(f.setback)));
     table.numbers("alpha_0", "", numbers(&|f| Some(f.multiplier())));
     table.numbers("participation", "", numbers(&|f| Some(f.pushover.participation)));
@@ -96,7 +96,7 @@ fn mechanism(found: &Found, trilinear: Option<[f64; 2]>) -> Value {
         "equation": found.kind.equation(),
         "counts": found.counts,
         "hinge": found.hinge,
-        "cracks": found.slopes,
+        "cracks": found.slopes.iter().copied().map(tangent).collect::<Vec<_>>(),
         "setback": found.setback,
         "multiplier": found.multiplier(),
         "shares": shares,
@@ -120,6 +120,14 @@ fn mechanism(found: &Found, trilinear: Option<[f64; 2]>) -> Value {
         })),
         "notes": found.notes,
     })
+}
+
+/// tan ϑ above which a hinge is level: what rounding leaves of that of 90°.
+const LEVEL_HINGE: f64 = 1e9;
+
+/// tan β or tan ϑ; none of a level hinge.
+pub(super) fn tangent(value: f64) -> Option<f64> {
+    Some(value).filter(|tan| *tan <= LEVEL_HINGE)
 }
 
 fn linear(check: Result<Linear, Missing>) -> Value {

@@ -100,11 +100,8 @@ fn table(chosen: &[&Found], checked: bool) -> Vec<Vec<String>> {
 
 /// tan β or tan ϑ in words: a level hinge has none.
 pub(super) fn slope(value: f64) -> String {
-    if value > LEVEL_HINGE { "90°".into() } else { fixed(value, 3) }
+    rows::tangent(value).map_or_else(|| "90°".into(), |tan| fixed(tan, 3))
 }
-
-/// tan ϑ above which a hinge is level: what rounding leaves of that of 90°.
-const LEVEL_HINGE: f64 = 1e9;
 
 fn ratio(check: Result<f64, Missing>) -> String {
     let short = |why: Missing| -> &dyn Display {

@@ -109,7 +109,14 @@ pub fn described(plan: &Plan) -> std::result::Result<Vec<(&'static str, String)>
             ),
         ),
         ("damage", measured(&s.damage)),
-        ("limit states", s.limits.iter().map(|(n, v)| format!("{n} ({v} {})", s.unit)).collect::<Vec<_>>().join(", ")),
+        (
+            "limit states",
+            s.limits
+                .iter()
+                .map(|(n, v)| format!("{n} ({})", format!("{v} {}", s.unit).trim_end()))
+                .collect::<Vec<_>>()
+                .join(", "),
+        ),
         ("first runs", asked.to_string()),
     ]
     .into_iter()
@@ -196,7 +203,7 @@ fn tell(plan: &Plan, analysis: &Analysis, told: &Warned) -> std::result::Result<
         files::note(&format!("warning: {told}"));
     }
     let found = fragilities(&analysis.settings, &usable(analysis));
-    files::print(&found.iter().map(|f| line(&analysis.settings, f)).collect::<String>())
+    files::print(&found.iter().map(|f| line(analysis, f)).collect::<String>())
 }
 
 /// A hazard curve from its first to its last point.
@@ -229,8 +236,27 @@ fn ends([low, high]: [f64; 2]) -> String {
     }
 }
 
+/// What is known of a limit where one curve alone was run; none of more, or of none.
+fn alone(analysis: &Analysis, limit: &str) -> Option<String> {
+    let settings = &analysis.settings;
+    let curves = usable(analysis);
+    let ([curve], Some((_, value))) = (&curves[..], settings.limits.iter().find(|(name, _)| name == limit)) else {
+        return None;
+    };
+    let unit = settings.intensity.unit();
+    let capacity = match curve.capacity(*value) {
+        Evidence::At(at) => format!("at {} {unit}", shown(at)),
+        Evidence::Within([from, to]) => format!("between {} and {} {unit}", shown(from), shown(to)),
+        Evidence::Above(from) => format!("above {} {unit}", shown(from)),
+        Evidence::Below(to) => format!("below {} {unit}", shown(to)),
+        Evidence::Stripe { .. } => return None,
+    };
+    Some(format!("reached {capacity} by the one curve; a fragility is fitted to two or more"))
+}
+
 /// A fit in a line.
-fn line(settings: &Settings, found: &Found) -> String {
+fn line(analysis: &Analysis, found: &Found) -> String {
+    let settings = &analysis.settings;
     let unit = settings.intensity.unit();
     match &found.fit {
         Ok(f) => format!(
@@ -244,7 +270,10 @@ fn line(settings: &Settings, found: &Found) -> String {
             settings.hazard.as_ref().map_or(String::new(), |hazard| often(hazard, f)),
             f.doubt().map_or(String::new(), |doubt| format!("; {doubt}")),
         ),
-        Err(cause) => format!("  {} ({}): {cause}\n", found.limit, found.method),
+        Err(cause) => {
+            let told = alone(analysis, &found.limit).unwrap_or_else(|| format!("no fragility is fitted: {cause}"));
+            format!("  {} ({}): {told}\n", found.limit, found.method)
+        }
     }
 }
 
@@ -301,7 +330,7 @@ fn write(plan: &Plan, analysis: &Analysis, out: &Path) -> std::result::Result<Pa
         tables: vec![capacities, middle_table, runs],
         ..Section::default()
     };
-    let mut text: Vec<String> = found.iter().map(|f| line(s, f).trim().to_string()).collect();
+    let mut text: Vec<String> = found.iter().map(|f| line(analysis, f).trim().to_string()).collect();
     text.extend(doubts(analysis).into_iter().map(|told| format!("Warning: {told}.")));
     let percent = 100.0 * s.confidence;
     text.insert(

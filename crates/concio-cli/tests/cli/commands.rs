@@ -250,6 +250,8 @@ fn check_tells_whether_a_planar_wall_stands() {
     };
     for (text, told) in [
         (wall(0.4), "under its loads  stands\n"),
+        (wall(0.4), "first period     none: its joints are rigid\n"),
+        (wall(0.6), "first period     none: the wall falls\n"),
         (wall(0.6), "under its loads  does not stand"),
         (bonded(0.4, "1 kPa"), "at most, 1 of 1 bonds cracked\n"),
         (bonded(0.4, "1 MPa"), "at most\n"),
@@ -259,6 +261,55 @@ fn check_tells_whether_a_planar_wall_stands() {
         let out = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
         assert!(out.contains(told), "{text}: {out}");
     }
+}
+
+/// What is not asked of a large wall is said, instead of left out: 2,001 blocks on each other, of 0.5 m by 1 mm.
+#[test]
+fn check_says_what_it_does_not_ask_of_large_walls() {
+    let desk = Desk::new();
+    desk.put(
+        "wall.toml",
+        "model = \"planar\"\n[[panel]]\nbond = \"stack\"\ncourses = 667\nbricks = 3\n\
+         brick = { length = 0.5, height = 0.01, thickness = 0.5, specific_weight = 20e3 }\n\
+         [joint]\nbed = { law = \"rigid\" }\nhead = { law = \"rigid\" }\n\
+         friction = { law = \"coulomb\", static = 0.6 }\n[motion]\nduration = \"1 s\"\n",
+    );
+    let said = desk.concio("check wall.toml").assert().success().get_output().stdout.clone();
+    let said = String::from_utf8_lossy(&said).into_owned();
+    for line in [
+        "under its loads  not asked of more than 2000 blocks; `concio run` settles the wall first\n",
+        "first period     not asked of more than 2000 blocks\n",
+    ] {
+        assert!(said.contains(line), "{said}");
+    }
+}
+
+/// Courses that are listed one by one, where their lengths differ: 3 × 0.3 m and two head joints are 0.93 m.
+#[test]
+fn check_lists_the_lengths_of_courses() {
+    let desk = Desk::new();
+    let course = |bricks: &str| format!("[[panel.course]]\nheight = 0.15\nbricks = [{bricks}]\n");
+    let wall = |last: &str| {
+        let courses = [course("0.3, 0.3, 0.3"), course("0.45, 0.465"), course(last)].concat();
+        format!(
+            "model = \"planar\"\n[[panel]]\nbond = \"irregular\"\n\
+             brick = {{ length = 0.3, height = 0.15, thickness = 0.4, specific_weight = 21e3 }}\n\
+             mortar = {{ bed = 0.015, head = 0.015 }}\n{courses}\
+             [joint]\nbed = {{ law = \"rigid\" }}\nhead = {{ law = \"rigid\" }}\n\
+             friction = {{ law = \"coulomb\", static = 0.6 }}\n[motion]\nduration = 1.0\n"
+        )
+    };
+    let said = |last: &str| {
+        desk.put("wall.toml", wall(last));
+        let said = desk.concio("check wall.toml").assert().success().get_output().stdout.clone();
+        let said = String::from_utf8_lossy(&said).into_owned();
+        said.lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect::<Vec<_>>()
+    };
+    let found = said("0.3, 0.3, 0.2");
+    for line in ["courses of length number which", "p1 930.0 mm 2 1, 2", "p1 830.0 mm 1 3"] {
+        assert!(found.iter().any(|l| l == line), "{line}: {found:#?}");
+    }
+    assert!(!said("0.3, 0.3, 0.3").iter().any(|line| line.starts_with("courses of")));
 }
 
 /// The help of the program lists each command once, in groups.

@@ -88,7 +88,7 @@ fn wrong_questions_are_refused() {
     refused(
         &desk,
         "first-crack dry.toml",
-        &["dry.toml", "--criterion", "no joint of this wall is bonded", "[joint.bond]"],
+        &["dry.toml: joint.bond: no joint of this wall is bonded", "[joint.bond]", "`--criterion slip`"],
     );
     refused(&desk, "first-crack still.toml", &["still.toml", "motion.base", "at rest", "--records"]);
     refused(&desk, "first-crack wall.toml --criterion slip --limit 0mm", &["--limit", "above 0mm"]);

@@ -284,6 +284,9 @@ fn a_level_hinge_of_flaps_is_one_of_90_degrees() {
     let told = text(&desk, "mechanisms wall.toml");
     let line = told.lines().find(|l| l.contains("flaps of the gable")).expect("flaps");
     assert!(line.contains("90°"), "{line}");
+    let all = json(&desk, "mechanisms wall.toml --json --all");
+    let mut flaps = all["mechanisms"].as_array().expect("mechanisms").iter().filter(|m| m["kind"] == "gable-flaps");
+    assert!(flaps.any(|m| m["cracks"][0].is_null()) && !all.to_string().contains("e16"), "{all}");
 }
 
 /// The gable end of the examples has every kind of mechanism that the façade lacks, and its strength sets them back.
@@ -404,6 +407,7 @@ fn a_record_is_followed_with_both_signs() {
         "peak 2.994 m/s² = 0.3052 g",
         "no vertical motion",
         "turn/θ0",
+        "d_C0: where the control point is at θ0",
         "inwards",
         "outwards",
         "stands",

@@ -143,6 +143,25 @@ fn check_tells_each_step_of_processing_with_its_numbers() {
     assert!(!told(desk.concio("check shaken.toml"), 0)[0].contains("in the file"));
 }
 
+/// A header that names another unit than that of its numbers: a peak that hardly shakes, or one that hardly an earthquake had.
+#[test]
+fn a_record_whose_header_names_the_wrong_unit_is_told() {
+    let desk = Desk::new();
+    let warned = |unit: &str, size: f64| {
+        let rows: String = (0..200).map(|k| format!("{}\n", size * (0.3 * f64::from(k)).sin())).collect();
+        desk.put("quake.txt", format!("# dt = 0.01 s, units: {unit}\n{rows}"));
+        told(desk.concio("record quake.txt"), 0)[1].clone()
+    };
+    let weak = warned("cm/s2", 3.4323);
+    assert!(weak.contains("warning: the unit in the file is \"cm/s2\", in which the record's peak acceleration is 0.0035 g: it hardly moves a wall. Is it 0.35 g? Then its unit is \"m/s2\""), "{weak}");
+    let strong = warned("g", 3.4323);
+    assert!(
+        strong.contains("warning: the record's peak acceleration is 3.43 g, more than 2 g, which few records have"),
+        "{strong}"
+    );
+    assert_eq!([warned("m/s2", 3.4323), warned("g", 0.35)], ["", ""]);
+}
+
 /// An offset drifts because it pushes: that is said, not that a filter hardly touches the acceleration.
 #[test]
 fn a_record_with_an_offset_says_what_it_does_to_the_acceleration() {

@@ -61,7 +61,17 @@ fn check_tells_rods_and_joints() {
     };
     assert_eq!(row("joints"), "joints number pressed sheared friction crushed by");
     assert_eq!(row("base "), "base 1 rigid, e = 0 – 0.400 –");
-    assert_eq!(row("1 "), "1 base stone 5.000 MN/m 2.000 kN");
+    assert_eq!(row("ties"), "ties from at to at length stiffness yields at");
+    assert_eq!(row("1 "), "1 base -2.000, 0.125 m stone 0.000, 0.125 m 2.000 m 5.000 MN/m 2.000 kN");
+    // A base that goes to the left leaves the stone behind to its right; the rod is on its left side alone.
+    assert!(text.contains("pushes the wall to the right; it is not symmetric: run the other sign too\n"), "{text}");
+    let both = WALL.replace(
+        "[motion]",
+        "[[tie]]\nfrom = \"base\"\nat = [3, 0.125]\nto = \"stone\"\nto_at = [0.5, 0]\nstiffness = \"5 MN/m\"\n[motion]",
+    );
+    desk.put("tied.toml", both.replace("\"-0.7 g\"", "\"0.7 g\""));
+    let said = desk.concio("check tied.toml").assert().success().get_output().stdout.clone();
+    assert!(String::from_utf8_lossy(&said).contains("pushes the wall to the left\n"));
 }
 
 #[test]

@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 use super::node::{Node, Value};
 use super::out_of_plane::{FloorLoad, Hazard, OutOfPlane, SideWall, Site};
 use super::{
-    Beam, Bond, Brick, Case, FrictionChange, FrictionLaw, HistoryQuantity, JointBond, JointKind, Joints, ModelKind,
-    Panel, Scheme, Signal, Solver, SpringChange, TopLoad,
+    Beam, Bond, Brick, Case, Course, FrictionChange, FrictionLaw, HistoryQuantity, JointBond, JointKind, Joints,
+    ModelKind, Panel, Scheme, Signal, Solver, SpringChange, TopLoad,
 };
 use crate::quantity::{Stiffness, shown};
 use crate::warning::{Warning, WarningKind};
@@ -34,8 +34,9 @@ const FROM_CM: (f64, &str, f64) = (1e-2, "cm", 1e-2);
 /// Brick lengths and heights: from a chip of stone to the largest ashlar.
 const BRICK: Expected =
     Expected { limits: [5e-3, 5.0], usual: [0.03, 2.0], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)] };
-/// Joints: 0 is a dry wall, more than 100 mm is no joint.
-const MORTAR: Expected = Expected { limits: [1e-4, 0.1], usual: [1e-3, 0.05], unit: "m", slips: &[FROM_MM, FROM_CM] };
+/// Joints: 0 is a dry wall, 70 mm are the thickest of Byzantine walls.
+const MORTAR: Expected =
+    Expected { limits: [1e-4, 0.07], usual: [1e-3, 0.05], unit: "m", slips: &[FROM_MM, (0.1, "mm", 1e-3), FROM_CM] };
 /// A panel: no wall of one panel is a kilometre long.
 const PANEL: Expected =
     Expected { limits: [0.05, 1e3], usual: [0.2, 100.0], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)] };
@@ -47,7 +48,12 @@ const WEIGHT: Expected = Expected {
     limits: [2.5e3, 1e5],
     usual: [5e3, 3.5e4],
     unit: "N/m3",
-    slips: &[(1e3, "kN/m3", 1e3), (crate::G, "kg/m3", crate::G), (1e-3, "kN/m3", 1e3)],
+    slips: &[
+        (1e3, "kN/m3", 1e3),
+        (crate::G, "kg/m3", crate::G),
+        (1e-3, "kN/m3", 1e3),
+        (1e-3 * crate::G, "kg/m3", crate::G),
+    ],
 };
 /// Rubber of 1 MPa, 10 mm thick, under half a brick has 5e5 N/m; steel of 1 mm over a metre has some 1e13 N/m.
 const STIFFNESS: Expected = Expected {
@@ -226,8 +232,9 @@ pub fn doubts(case: &Case) -> Vec<Warning> {
         of_panel(&mut doubts, &format!("panel[{index}]"), panel);
         // Elsewhere it is a reference alone.
         if matches!(panel.bond, Bond::Running | Bond::Stack | Bond::Irregular) {
-            of_proportions(&mut doubts, &format!("panel[{index}].brick"), &panel.brick, case.out_of_plane.is_some());
+            of_proportions(&mut doubts, &format!("panel[{index}].brick"), panel, case.out_of_plane.is_some());
         }
+        of_courses(&mut doubts, &format!("panel[{index}]"), panel);
     }
     for (index, tie) in case.ties.iter().enumerate() {
         doubts.look(&format!("tie[{index}].stiffness"), tie.stiffness.si(), &STIFFNESS);
@@ -650,12 +657,17 @@ fn raised(v: f64) -> f64 {
 
 /// Height and thickness of bricks over their length. Roman tiles are 1 : 13 high; walls are as thick as some bricks are long.
 const PROPORTIONS: [(&str, [f64; 2]); 2] = [("height", [0.05, 50.0]), ("thickness", [0.06, 4.0])];
+/// Height over length of bricks side by side: posts and blocks that rock stand alone.
+const UPRIGHT: f64 = 2.0;
 
 /// Sides that are likely by themselves, and not beside each other. Façades are thicker than their bricks are long.
-fn of_proportions(doubts: &mut Doubts, at: &str, brick: &Brick, facade: bool) {
+fn of_proportions(doubts: &mut Doubts, at: &str, panel: &Panel, facade: bool) {
+    let brick: &Brick = &panel.brick;
     let known = |v: f64| (BRICK.limits[0]..=BRICK.limits[1]).contains(&v);
     let length = brick.length.si();
+    let bonded = panel.courses.is_some_and(|n| n > 1) && panel.bricks.is_some_and(|n| n > 1);
     for ((key, [least, most]), side) in PROPORTIONS.into_iter().zip([brick.height.si(), brick.thickness.si()]) {
+        let most = if key == "height" && bonded { UPRIGHT } else { most };
         // A wall may be given by the metre of its depth.
         let most = if facade || side == 1.0 { f64::INFINITY } else { most };
         if known(length) && known(side) && !(least..=most).contains(&(side / length)) {
@@ -670,6 +682,85 @@ fn of_proportions(doubts: &mut Doubts, at: &str, brick: &Brick, facade: bool) {
             doubts.add(WarningKind::UnlikelyNumber, text);
         }
     }
+}
+
+/// How far a course may end from those beside it, over the length of the reference brick: toothed ends have half of it.
+const BESIDE: f64 = 0.55;
+/// Lengths of stones over that of the reference brick, from chips between them to lintels.
+const STONES: [f64; 2] = [0.1, 8.0];
+/// How near a length that is guessed brings the end of its course to those beside it, over the length of the reference brick.
+const FITS: f64 = 0.25;
+
+/// Courses that end where those beside them do not, and stones of another size than all others: slips in what was measured.
+fn of_courses(doubts: &mut Doubts, at: &str, panel: &Panel) {
+    let brick = panel.brick.length.si();
+    let ends: Vec<[f64; 2]> = panel.course_list.iter().map(|course| course.ends(panel.mortar.head)).collect();
+    for (c, course) in panel.course_list.iter().enumerate() {
+        let key = format!("{at}.course[{c}]");
+        if let Some(beside) = apart(&ends, c, BESIDE * brick) {
+            let from_to = |k: usize| {
+                let [from, to] = ends[k].map(|x| shown(rounded(x, 6)));
+                format!("from {from} to {to} m")
+            };
+            let others: Vec<String> = beside.iter().map(|&k| format!("course[{k}] {}", from_to(k))).collect();
+            let meant = slipped(course, ends[c][1] - ends[beside[0]][1], FITS * brick);
+            let meant = meant.map_or("look at its `bricks` and `offset`".into(), |(b, length)| {
+                format!("did you mean bricks[{b}] = \"{} mm\"?", shown(rounded(1e3 * length, 6)))
+            });
+            let text = format!(
+                "{key} goes {}, and beside it {}: they end more than half a brick of {} m apart; {meant}",
+                from_to(c),
+                others.join(" and "),
+                shown(brick)
+            );
+            doubts.add(WarningKind::UnlikelyNumber, text);
+            continue;
+        }
+        let lengths = course.bricks.iter().map(|length| length.si()).enumerate();
+        for (b, length) in lengths.filter(|(_, length)| (BRICK.limits[0]..=BRICK.limits[1]).contains(length)) {
+            let [least, most] = STONES;
+            let part = length / brick;
+            if !(least..=most).contains(&part) {
+                let bound = if part < least { format!("at least {least}") } else { format!("at most {most}") };
+                let [part, length, brick] = [rounded(part, 2), length, brick].map(|v| shown(rounded(v, 6)));
+                let text = format!(
+                    "{key}.bricks[{b}] is {length} m, {part} times the panel's brick of {brick} m: stones have {bound}; look at both"
+                );
+                doubts.add(WarningKind::UnlikelyNumber, text);
+            }
+        }
+    }
+}
+
+/// The courses beside one that end together, where it ends more than `far` [m] from both: gables and steps go on from course to course.
+fn apart(ends: &[[f64; 2]], course: usize, far: f64) -> Option<Vec<usize>> {
+    let beside = match (course, ends.len()) {
+        (0, 0..=2) | (_, 0..=1) => return None,
+        (1, 2) => vec![0],
+        (0, _) => vec![1, 2],
+        (k, n) if k + 1 == n => vec![n - 2, n - 3],
+        (k, _) => vec![k - 1, k + 1],
+    };
+    let together = |side: usize| beside.iter().all(|&k| (ends[k][side] - ends[beside[0]][side]).abs() <= far);
+    let way = |side: usize| {
+        let ways = beside.iter().map(|&k| ends[course][side] - ends[k][side]);
+        ways.fold(f64::INFINITY, |least, way| if way.abs() < f64::abs(least) { way } else { least })
+    };
+    let [left, right] = [0, 1].map(way);
+    let odd = [left, right].map(|way| way.abs() > far);
+    // Wider or narrower at both ends, as footings and cornices are, is meant.
+    let meant = odd == [true, true] && left * right < 0.0;
+    ((odd[0] || odd[1]) && !meant && together(0) && together(1)).then_some(beside)
+}
+
+/// The brick of a course whose length, with its point moved, takes away that the course is too long by `excess` [m]; its length then [m].
+fn slipped(course: &Course, excess: f64, near: f64) -> Option<(usize, f64)> {
+    let factors = [0.1, 10.0, 1e-2, 1e2, 1e-3, 1e3];
+    let lengths = course.bricks.iter().map(|length| length.si()).enumerate();
+    let moved = lengths.flat_map(|(b, length)| factors.map(|factor| (b, length, factor * length)));
+    let left = |&(_, length, meant): &(usize, f64, f64)| (excess - (length - meant)).abs();
+    let best = moved.min_by(|a, b| left(a).total_cmp(&left(b))).filter(|found| left(found) <= near)?;
+    Some((best.0, best.2))
 }
 
 fn of_panel(doubts: &mut Doubts, at: &str, panel: &Panel) {

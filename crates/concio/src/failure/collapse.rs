@@ -33,7 +33,7 @@ pub struct Collapsed {
 impl Collapsed {
     /// Of a run; none where the wall did not collapse.
     pub fn of(outcome: &Outcome, wall: &Wall) -> Option<Self> {
-        let Collapse { time, block, way, turned } = outcome.totals.collapse?;
+        let Collapse { time, block, way, turned, .. } = outcome.totals.collapse?;
         let name = &wall.blocks.get(block)?.name;
         let fallen = fallen(outcome, wall);
         Some(Collapsed { time, block: name.clone(), displacement: way, turned, fallen })

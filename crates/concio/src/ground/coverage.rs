@@ -4,10 +4,10 @@ use std::path::Path;
 
 use crate::G;
 use crate::case::plausible::rounded;
-use crate::case::{Beam, BlockForce, Case, HistoryQuantity, ModelKind, RecordInput, Signal};
+use crate::case::{Baseline, Beam, BlockForce, Case, HistoryQuantity, ModelKind, RecordInput, Signal};
 use crate::error::Result;
 use crate::ground::library::Component;
-use crate::ground::record::Record;
+use crate::ground::record::{Format, Record};
 use crate::ground::signal::{GroundMotion, compile_with};
 use crate::ground::{Library, STANDARD_GRAVITY, channel, measure, units};
 use crate::quantity::shown;
@@ -29,8 +29,9 @@ const SMALLEST_PEAK: f64 = 0.01;
 const LARGEST_PEAK: f64 = 60.0;
 /// Peak of nearly all records, 2 g [m/s²].
 const STRONGEST: f64 = 2.0 * STANDARD_GRAVITY;
-/// The same of a motion whose peak the wall file names: the largest that were recorded have 3 to 4 g.
-const NAMED: f64 = 3.0 * STANDARD_GRAVITY;
+/// The same of a motion whose peak the wall file names, in the g of wall files: the largest that were recorded have 3 to 4 g.
+const NAMED: f64 = 3.0 * G * (1.0 + ROUNDING);
+const ROUNDING: f64 = 1e-9;
 /// Below this peak hardly a wall moves [m/s²].
 const WEAK: f64 = 0.05 * STANDARD_GRAVITY;
 /// Difference from g of a factor that is meant to be g: 9.8, 9.80665, 9.81.
@@ -87,6 +88,9 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
                 let scale = of_gravity(name, input, &record).map(|text| Warning::new(WarningKind::ScaledByG, text));
                 let unit = || in_gravity(name, input, &record).map(|t| Warning::new(WarningKind::UnlikelyRecord, t));
                 found.extend(scale.or_else(unit));
+                let [raw, left] = library.peaks(input, folder)?;
+                let weakened = weakened(name, input, raw, left);
+                found.extend(weakened.map(|text| Warning::new(WarningKind::RecordCut, text)));
                 let meant = input.pga.is_some();
                 found.extend(of_record(case, name, &record, meant, duration));
             }
@@ -263,10 +267,23 @@ pub fn odd_peak(record: &Record) -> Option<String> {
         .then(|| format!("the record's peak acceleration is {} m/s², {how} than {bound} m/s²", rounded(peak, 4)))
 }
 
+/// Says of a record, as its file has it, that its peak is above 2 g.
+pub fn rare_peak(record: &Record) -> Option<String> {
+    let peak = largest(record);
+    (peak > STRONGEST && peak <= LARGEST_PEAK).then(|| {
+        let peak = shown(rounded(peak / STANDARD_GRAVITY, 3));
+        format!("the record's peak acceleration is {peak} g, more than 2 g, which few records have: look at its unit")
+    })
+}
+
 /// Says of a peak [m/s²] above `most` that hardly an earthquake had that it is one.
 fn beyond(key: &str, peak: f64, most: f64, scales: &str) -> Option<Warning> {
     (peak > most).then(|| {
-        let [peak, most] = [peak, most].map(|a| shown(rounded(a / STANDARD_GRAVITY, 3)));
+        let g = if most == NAMED { G } else { STANDARD_GRAVITY };
+        let most = rounded(most / g, 3);
+        // As many digits as tell it from the limit.
+        let peak = (3..9).map(|digits| rounded(peak / g, digits)).find(|peak| *peak > most).unwrap_or(most);
+        let [peak, most] = [peak, most].map(shown);
         let text = format!(
             "{key}: its peak acceleration is {peak} g as it moves the wall, more than {most} g, which few records have: look at its unit, its interval, {scales}"
         );
@@ -279,18 +296,67 @@ fn largest(record: &Record) -> f64 {
     record.acceleration.iter().fold(0.0, |most, a| most.max(a.abs()))
 }
 
-/// Says of a record that hardly moves a wall in the unit that the wall file gives that its numbers may be in g.
-fn in_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String> {
-    let unit = input.units.as_deref().filter(|_| input.quantity == HistoryQuantity::Acceleration)?;
+/// Says of a record of text, as its file has it, that hardly moves a wall in the unit that the file or `units` gives, that its numbers may be in another.
+/// `what` is the key or file that gives it.
+pub fn odd_unit(what: &str, record: &Record) -> Option<String> {
+    let text = record.format == Format::Text && record.displacement.is_none();
+    let unit = Some(&record.units).filter(|_| text)?;
     let peak = largest(record);
     // The largest number of the file.
-    let number = peak / units::factor(unit, input.quantity)?;
-    let as_given = input.scale.is_none() && input.pga.is_none();
-    (as_given && peak < WEAK && number > WEAK / STANDARD_GRAVITY && number * STANDARD_GRAVITY < STRONGEST).then(|| {
+    let number = peak / units::factor(unit, HistoryQuantity::Acceleration)?;
+    let shakes = |(_, factor): &(&str, f64)| (WEAK..STRONGEST).contains(&(number * factor));
+    let meant: Vec<_> = [("g", STANDARD_GRAVITY), ("m/s2", 1.0)].into_iter().filter(shakes).collect();
+    (peak < WEAK && !meant.is_empty()).then(|| {
+        let in_g = |a: f64| shown(rounded(a / STANDARD_GRAVITY, 3));
+        let asked: Vec<String> = meant.iter().map(|(_, factor)| format!("{} g", in_g(number * factor))).collect();
+        let units: Vec<String> = meant.iter().map(|(unit, _)| format!("\"{unit}\"")).collect();
         format!(
-            "motion.{name}.units is {unit:?}, in which the record's peak acceleration is {} g: it hardly moves a wall. Is it {} g? Then `units` is \"g\"",
-            shown(rounded(peak / STANDARD_GRAVITY, 3)),
-            shown(rounded(number, 3))
+            "{what} is {unit:?}, in which the record's peak acceleration is {} g: it hardly moves a wall. Is it {}? Then {} is {}",
+            in_g(peak),
+            asked.join(", or "),
+            if what.ends_with("units") { "`units`" } else { "its unit" },
+            units.join(", or ")
+        )
+    })
+}
+
+/// [`odd_unit`] of a record that a wall file takes as it is.
+fn in_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String> {
+    let what = match input.units {
+        Some(_) => format!("motion.{name}.units"),
+        None => format!("motion.{name}.record: the unit in the file"),
+    };
+    let as_given = input.scale.is_none() && input.pga.is_none();
+    if as_given { odd_unit(&what, record) } else { None }
+}
+
+/// Part of its peak that a record keeps as it is trimmed and filtered, below which it is told.
+const KEPT: f64 = 0.6;
+/// The same where it is resampled, which takes no more than rounding of what shakes a wall.
+const SAMPLED: f64 = 0.85;
+
+/// Says of a record that what was done to it took away its strongest part; `raw` is its peak before [m/s²].
+fn weakened(name: &str, input: &RecordInput, raw: f64, left: f64) -> Option<String> {
+    let done = [
+        ("trim", input.trim.is_some()),
+        ("baseline", input.baseline != Baseline::None),
+        ("resample", input.resample.is_some()),
+    ];
+    let keys: Vec<&str> = done.into_iter().filter(|(_, done)| *done).map(|(key, _)| key).collect();
+    let least = if input.resample.is_some() { SAMPLED } else { KEPT };
+    (left < least * raw && !keys.is_empty()).then(|| {
+        let [before, after] = [raw, left].map(|a| shown(rounded(a / STANDARD_GRAVITY, 3)));
+        let scaled = match input.pga {
+            Some(pga) if left > 0.0 => {
+                let factor = shown(rounded(pga.si() / left, 3));
+                format!(", and `pga` multiplies what is left by {factor}")
+            }
+            _ => String::new(),
+        };
+        let gone = if left < KEPT * raw { ": its strongest part is gone" } else { "" };
+        format!(
+            "motion.{name}.{}: of the record's peak acceleration of {before} g this leaves {after} g{gone}{scaled}",
+            keys.join(", ")
         )
     })
 }

@@ -45,6 +45,8 @@ struct Shelved {
     /// The names of the components in its file, and the place of this one among them, from 0.
     channels: Vec<String>,
     place: usize,
+    /// Largest acceleration of it in its file [m/s²].
+    peak: f64,
 }
 
 /// What a file holds beside the component that is taken of it.
@@ -100,6 +102,15 @@ impl Library {
         Ok(Component { number: shelved.place + 1, names: shelved.channels.clone() })
     }
 
+    /// Largest accelerations of the record of `input`: as its file has it, and prepared but for its scale [m/s²].
+    ///
+    /// # Errors
+    /// As [`Library::record`].
+    pub fn peaks(&self, input: &RecordInput, folder: &Path) -> Result<[f64; 2]> {
+        let shelved = self.of_file(input, folder)?;
+        Ok([shelved.peak, largest(&shelved.record)])
+    }
+
     /// The accelerogram of `input` ([`synthetic::generate`]).
     ///
     /// # Errors
@@ -109,8 +120,9 @@ impl Library {
         // A shape fits every PGA: spectrum and motion are proportional to it.
         let shape = Synthetic { pga: Acceleration::from_si(1.0), ..*input };
         let key = Key::Synthetic(format!("{shape:?}"));
-        let shelved =
-            self.shelved(key, || Ok(Shelved { record: synthetic::generate(&shape)?, channels: Vec::new(), place: 0 }))?;
+        let shelved = self.shelved(key, || {
+            Ok(Shelved { record: synthetic::generate(&shape)?, channels: Vec::new(), place: 0, peak: 1.0 })
+        })?;
         let mut record = shelved.record.clone();
         record.acceleration.iter_mut().for_each(|a| *a *= input.pga.si());
         Ok(record)
@@ -130,8 +142,9 @@ impl Library {
             })?;
             let channels = records.iter().map(|record| record.channel.clone()).collect();
             let mut record = records.swap_remove(place);
+            let peak = largest(&record);
             process::correct(&mut record, input).map_err(|e| in_file(e, &path))?;
-            Ok(Shelved { record, channels, place })
+            Ok(Shelved { record, channels, place, peak })
         })
     }
 
@@ -150,6 +163,10 @@ impl Library {
         }
         Ok(made)
     }
+}
+
+fn largest(record: &Record) -> f64 {
+    record.acceleration.iter().fold(0.0, |most, a| most.max(a.abs()))
 }
 
 /// A thread that panicked left nothing half done: places are filled whole or not at all.

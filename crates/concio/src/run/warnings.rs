@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::outcome::{Deepest, Outcome};
 use crate::planar::{Planar, Rest};
 use crate::quantity::shown;
-use crate::record::StopReason;
+use crate::record::{Counters, StopReason};
 use crate::rocking::{self, Rocking};
 use crate::store::{JointRow, residual_relative};
 use crate::warning::{Warning, WarningKind};
@@ -188,7 +188,16 @@ fn hardly_moved(wall: &Rocking, excitation: &Excitation, outcome: &Outcome) -> O
 /// A residual that is not a number is the stop reason's to tell; one up to `nothing` [J] is none.
 fn unbalanced(outcome: &Outcome, nothing: f64, remedy: &str) -> Option<String> {
     let residual = residual_relative(outcome);
+    let until = outcome.totals.collapse.and_then(|collapse| collapse.before).map(|before| before.residual);
     (residual > LARGE_RESIDUAL && outcome.totals.peak_residual > nothing).then(|| {
+        if let Some(until) = until.filter(|until| *until <= LARGE_RESIDUAL) {
+            return format!(
+                "the energy account is off by {:.2} % of the largest work, but by {} % until the wall collapsed: what it bore until then holds, \
+                 energies and the way it fell do not",
+                100.0 * residual,
+                shown(rounded(100.0 * until, 2))
+            );
+        }
         format!(
             "the energy account is off by {:.2} % of the largest work, more than 0.1 %: do not use the result, {remedy}",
             100.0 * residual
@@ -210,12 +219,31 @@ fn given_back(model: &Model, outcome: &Outcome) -> Option<String> {
     })
 }
 
+/// Steps that count: until a collapse, where that is known.
+struct Counted {
+    steps: u64,
+    unsolved: u64,
+    moving: u64,
+    until: &'static str,
+}
+
+fn counted(outcome: &Outcome) -> Counted {
+    let Counters { steps, unsolved, moving, .. } = outcome.counters;
+    let whole = Counted { steps, unsolved, moving, until: "" };
+    outcome.totals.collapse.and_then(|collapse| collapse.before).map_or(whole, |before| Counted {
+        steps: before.steps,
+        unsolved: before.unsolved,
+        moving: before.moving,
+        until: " until the wall collapsed",
+    })
+}
+
 /// Says where contact was found no better than within a looser bound than asked for, in more than a few steps.
 fn unsolved(outcome: &Outcome) -> Option<String> {
-    let (unsolved, steps) = (outcome.counters.unsolved, outcome.counters.steps);
+    let Counted { steps, unsolved, until, .. } = counted(outcome);
     (unsolved as f64 > UNSOLVED * steps as f64).then(|| {
         format!(
-            "the contact of {unsolved} of {steps} steps was left unsolved: blocks may overlap and forces may be wrong there; contact velocities \
+            "the contact of {unsolved} of {steps} steps{until} was left unsolved: blocks may overlap and forces may be wrong there; contact velocities \
              are off by up to {:.1e} m/s; lower solver.step",
             outcome.totals.contact_residual
         )
@@ -224,10 +252,10 @@ fn unsolved(outcome: &Outcome) -> Option<String> {
 
 /// Says of runs without inertia that their steps ended too soon for what swings slowly.
 fn moving(outcome: &Outcome) -> Option<String> {
-    let (moving, steps) = (outcome.counters.moving, outcome.counters.steps);
+    let Counted { steps, moving, until, .. } = counted(outcome);
     (moving as f64 > MOVING * steps as f64).then(|| {
         format!(
-            "{moving} steps ended before the wall had come to rest, though it slowed down: displacements and forces lag behind their loads; a slower \
+            "{moving} steps{until} ended before the wall had come to rest, though it slowed down: displacements and forces lag behind their loads; a slower \
              load or lower solver.step shows by how much"
         )
     })
@@ -552,7 +580,7 @@ mod tests {
     use crate::case::{Scheme, Solver};
     use crate::excitation::Excitation;
     use crate::ground::signal::GroundMotion;
-    use crate::outcome::Collapse;
+    use crate::outcome::{Before, Collapse, Totals};
     use crate::run::{Prepared, prepare_case, run_in_memory};
     use crate::samples::{Link, lumped, solver};
     use crate::simulate::{Sampling, Simulation};
@@ -732,13 +760,30 @@ step = "2 ms"
         assert_eq!(moves_on(&model, None, &outcome), None, "the shear model does not fall");
         outcome.energies.kinetic = 0.0;
         outcome.counters.unsolved = 11;
-        outcome.totals.collapse = Some(Collapse { time: 0.25, block: 1, way: 0.1, turned: true });
+        outcome.totals.collapse = Some(Collapse { time: 0.25, block: 1, way: 0.1, turned: true, before: None });
         let told = of(&model, &joints, &outcome);
         assert_eq!(told.len(), 2, "{told:?}");
         assert!(
             told[0].contains("11 of 10000 steps") && told[1].contains("t = 0.2500 s on, when block m2 turned by 45°"),
             "{told:?}"
         );
+        // What went wrong as the wall lay down is no doubt about what it bore before.
+        let lay = |before: Before| {
+            let collapse = outcome.totals.collapse.map(|collapse| Collapse { before: Some(before), ..collapse });
+            let mut outcome = Outcome { totals: Totals { collapse, ..outcome.totals }, ..outcome.clone() };
+            (outcome.totals.peak_residual, outcome.counters.moving) = (1.0, 60);
+            of(&model, &joints, &outcome).into_iter().map(|told| told.text).collect::<Vec<_>>()
+        };
+        let before = Before { residual: 1e-5, steps: 8_000, unsolved: 8, moving: 40 };
+        let told = lay(before);
+        assert!(
+            told.len() == 2
+                && told[0].starts_with("the energy account is off by 1.00 % of the largest work, but by 0.001 % until the wall collapsed: what it bore until then holds"),
+            "{told:?}"
+        );
+        assert!(lay(Before { residual: 2e-3, ..before })[0].contains("do not use the result"));
+        assert!(lay(Before { unsolved: 9, ..before })[1].contains("9 of 8000 steps until the wall collapsed"));
+        assert!(lay(Before { moving: 41, ..before })[1].starts_with("41 steps"));
     }
 
     #[test]

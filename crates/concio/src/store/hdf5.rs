@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::drift::DriftRow;
 use crate::error::{Error, Result};
 use crate::files;
-use crate::outcome::{Collapse, Outcome, TieRow};
+use crate::outcome::{Before, Collapse, Outcome, TieRow};
 use crate::record::{Event, Layout, Recording};
 use crate::store::digest;
 use crate::store::fields::{self, FORMAT, Field, Frames, NO_FRICTION, check_lengths, device_name, keyword, other_side};
@@ -186,11 +186,26 @@ fn write_ties(sink: &mut Sink, ties: &[TieRow]) -> Result<()> {
 
 /// Nothing where the wall did not collapse.
 fn write_collapse(sink: &mut Sink, collapse: Option<&Collapse>) -> Result<()> {
-    let Some(Collapse { time, block, way, turned }) = collapse else { return Ok(()) };
+    let Some(Collapse { time, block, way, turned, before }) = collapse else { return Ok(()) };
     sink.number("collapse/time", *time, label("s", "When the first block had fallen or turned over."))?;
     sink.number("collapse/block", *block as i64, label("1", "Index of that block."))?;
     sink.number("collapse/displacement", *way, label("m", "Its displacement then."))?;
-    sink.number("collapse/turned", u8::from(*turned), label("1", "1 where it had turned over, 0 where it had fallen."))
+    sink.number(
+        "collapse/turned",
+        u8::from(*turned),
+        label("1", "1 where it had turned over, 0 where it had fallen."),
+    )?;
+    let Some(Before { residual, steps, unsolved, moving }) = before else { return Ok(()) };
+    let told = "Largest residual of the energy account until then over the largest energy in play.";
+    sink.number("collapse/before/residual", *residual, label("1", told))?;
+    sink.number("collapse/before/steps", *steps, label("1", "Steps until then."))?;
+    sink.number(
+        "collapse/before/unsolved",
+        *unsolved,
+        label("1", "Steps until then whose contact was left unsolved."),
+    )?;
+    let told = "Steps without inertia until then that ended before the wall had come to rest.";
+    sink.number("collapse/before/moving", *moving, label("1", told))
 }
 
 /// Nothing where nothing happened: other readers refuse a list of no texts.

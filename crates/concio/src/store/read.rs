@@ -10,7 +10,7 @@ use crate::bond::BondRow;
 use crate::case::{DeviceLaw, JointKind};
 use crate::drift::DriftRow;
 use crate::error::{Error, Result};
-use crate::outcome::{Collapse, Outcome, TieRow, Totals};
+use crate::outcome::{Before, Collapse, Outcome, TieRow, Totals};
 use crate::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording};
 use crate::store::fields::{self, BASE, FORMAT, Field, Frames, NO_DEVICE, NO_FRICTION, TOP, layout_against};
 use crate::store::h5::Source;
@@ -246,6 +246,20 @@ fn read_collapse(source: &Source, blocks: usize) -> Result<Option<Collapse>> {
         block: block(source, "collapse/block", source.number("collapse/block")?, blocks)?,
         way: source.number("collapse/displacement")?,
         turned: source.number::<u8>("collapse/turned")? != 0,
+        before: read_before(source)?,
+    }))
+}
+
+/// None in a file without it.
+fn read_before(source: &Source) -> Result<Option<Before>> {
+    if !source.has("collapse/before/residual") {
+        return Ok(None);
+    }
+    Ok(Some(Before {
+        residual: source.number("collapse/before/residual")?,
+        steps: source.number("collapse/before/steps")?,
+        unsolved: source.number("collapse/before/unsolved")?,
+        moving: source.number("collapse/before/moving")?,
     }))
 }
 

@@ -140,18 +140,9 @@ pub fn is_summary(path: &Path) -> bool {
     summary.is_some_and(|summary| summary.get("inputs_hash").is_some())
 }
 
-/// Part of the works done on the wall, their sizes added, that their net is taken for at least.
-const CANCELLING: f64 = 0.2;
-
-/// Largest residual of the energy account over the largest energy in play, the works done on the wall or what it had at
-/// the start, all over the whole run; 0 when there was none. The work at the end is no measure: what a driven beam gives it may take back.
-/// Nor is the net of works that cancel: a beam that tips a rigid wall brings what its weights take, and what is left is known no better than they
-/// are. It counts for no less than a fifth of them.
+/// [`crate::outcome::Totals::residual_relative`] of the whole run.
 pub fn residual_relative(outcome: &Outcome) -> f64 {
-    let totals = &outcome.totals;
-    let net = totals.peak_input.max(outcome.energies.initial.abs());
-    let scale = net.max(CANCELLING * totals.peak_work);
-    if scale == 0.0 { 0.0 } else { totals.peak_residual / scale }
+    outcome.totals.residual_relative(outcome.energies.initial)
 }
 
 /// Root mean square of the force of the top beam over the time reached, until a collapse at the longest [N].

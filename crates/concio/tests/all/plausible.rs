@@ -651,10 +651,17 @@ fn each_mistake_of_unit_is_told_with_a_guess() {
         ("length = 0.25", "length = 300", "panel[0].brick.length is 300 m, more than 5 m; did you mean \"300 mm\"?"),
         ("length = 0.25", "length = 25", "panel[0].brick.length is 25 m, more than 5 m; did you mean \"25 cm\"?"),
         ("height = 0.055", "height = \"0.055 mm\"", "less than 0.005 m; did you mean \"0.055 m\"?"),
-        ("bed = 0.01", "bed = 10", "panel[0].mortar.bed is 10 m, more than 0.1 m; did you mean \"10 mm\"?"),
+        ("bed = 0.01", "bed = 10", "panel[0].mortar.bed is 10 m, more than 0.07 m; did you mean \"10 mm\"?"),
         ("18000", "18", "specific_weight is 18 N/m3, less than 2500 N/m3; did you mean \"18 kN/m3\"?"),
         ("18000", "1800", "specific_weight is 1800 N/m3, less than 2500 N/m3; did you mean \"1800 kg/m3\"?"),
         ("18000", "\"18000 kN/m3\"", "more than 100000 N/m3; did you mean \"18 kN/m3\"?"),
+        ("18000", "\"1800 kN/m3\"", "more than 100000 N/m3; did you mean \"1800 kg/m3\"?"),
+        ("bed = 0.01", "bed = \"10 cm\"", "panel[0].mortar.bed is 0.1 m, more than 0.07 m; did you mean \"10 mm\"?"),
+        (
+            "height = 0.055",
+            "height = \"55 cm\"",
+            "panel[0].brick.height is 0.55 m, 2.2 times the length of 0.25 m: bricks have at most 2; did you mean \"0.055 m\"?",
+        ),
         (
             "stiffness = 5.4e7 }\nhead",
             "stiffness = 54 }\nhead",
@@ -1066,6 +1073,133 @@ fn ties_that_yield_at_nothing_or_never_are_told() {
     }
 }
 
+/// Anchors beside a wall are meant; one 30 m away from a wall of 5 m by 6 m, or above it, is a slip.
+#[test]
+fn ties_to_a_base_far_from_the_wall_are_told() {
+    let told = |at: &str| {
+        let text = format!(
+            "model = \"planar\"\n[[panel]]\nbond = \"stack\"\ncourses = 12\nbricks = 5\n\
+             brick = {{ length = 1.0, height = 0.5, thickness = 0.5, specific_weight = 18e3 }}\n\
+             [[tie]]\nfrom = \"base\"\nat = {at}\nto = \"p1c12b1\"\nstiffness = \"20 MN/m\"\n\
+             [joint]\nbed = {{ law = \"rigid\" }}\nhead = {{ law = \"rigid\" }}\n\
+             friction = {{ law = \"coulomb\", static = 0.6 }}\n[motion]\nduration = 1.0\n"
+        );
+        prepared(&text, "tie[0].")
+    };
+    for (at, place) in [
+        ("[30, 0]", "x = 30 m, y = 0 m, 25 m away"),
+        ("[0.5, \"20 m\"]", "x = 0.5 m, y = 20 m, 14 m away"),
+        ("[0.5, \"-20 m\"]", "x = 0.5 m, y = -20 m, 20 m away"),
+    ] {
+        let right = format!(
+            "tie[0].at is fixed to the base at {place} from the wall, which goes from x = 0 to 5 m and up to y = 6 m; look at its unit"
+        );
+        assert_eq!(told(at), [right], "{at}");
+    }
+    for fine in ["[0.5, 0]", "[-8, 0]", "[12, -3]", "[-2, 7]"] {
+        assert_eq!(told(fine), [""; 0], "{fine}");
+    }
+}
+
+/// Three courses of a survey with a length that is wrong, and what is meant: teeth, steps, a footing.
+#[test]
+fn slips_in_surveyed_courses_are_told() {
+    let told = |courses: &[(&str, &str)]| {
+        let lists: String = courses
+            .iter()
+            .map(|(bricks, offset)| {
+                format!("[[panel.course]]\nheight = 0.15\nbricks = [{bricks}]\noffset = {offset}\n")
+            })
+            .collect();
+        let text = format!(
+            "model = \"planar\"\n[[panel]]\nbond = \"irregular\"\n\
+             brick = {{ length = 0.3, height = 0.15, thickness = 0.4, specific_weight = 21e3 }}\n\
+             mortar = {{ bed = 0.015, head = 0.015 }}\n{lists}\
+             [joint]\nbed = {{ law = \"rigid\" }}\nhead = {{ law = \"rigid\" }}\n\
+             friction = {{ law = \"coulomb\", static = 0.6 }}\n[motion]\nduration = 1.0\n"
+        );
+        doubts(&case(&text)).iter().map(|doubt| doubt.text.clone()).collect::<Vec<_>>()
+    };
+    let (one, two, three) = (("0.42, 0.26, 0.39", "0"), ("0.25, 0.31, 0.24, 0.255", "0"), ("0.35, 0.4, 0.32", "0.005"));
+    let apart = "they end more than half a brick of 0.3 m apart";
+    assert_eq!(
+        told(&[("4.2, 0.26, 0.39", "0"), two, three]),
+        [format!(
+            "panel[0].course[0] goes from 0 to 4.88 m, and beside it course[1] from 0 to 1.1 m and course[2] from 0.005 to 1.105 m: {apart}; did you mean bricks[0] = \"420 mm\"?"
+        )]
+    );
+    let small = told(&[one, ("0.25, 0.31, 0.024, 0.255", "0"), three]);
+    assert!(small.len() == 1 && small[0].ends_with("did you mean bricks[2] = \"240 mm\"?"), "{small:?}");
+    for slip in [("0.42, 0.26, 0.19", "0"), ("0.42, 0.26, 0.39", "0.5")] {
+        let found = told(&[one, slip, three]);
+        assert!(found.len() == 1 && found[0].ends_with("look at its `bricks` and `offset`"), "{found:?}");
+        assert!(found[0].starts_with("panel[0].course[1] goes") && found[0].contains(apart), "{found:?}");
+    }
+    // A chip in a course that ends right.
+    assert_eq!(
+        told(&[one, ("0.25, 0.31, 0.02, 0.475", "0"), three]),
+        [
+            "panel[0].course[1].bricks[2] is 0.02 m, 0.067 times the panel's brick of 0.3 m: stones have at least 0.1; look at both"
+        ]
+    );
+    for fine in [
+        vec![one, two, three],
+        // Toothed by half a brick.
+        vec![one, ("0.25, 0.31, 0.24, 0.405", "0"), one, ("0.25, 0.31, 0.24, 0.405", "0")],
+        // Steps, on one side and on both.
+        vec![("0.3, 0.3, 0.3, 0.3", "0"), ("0.3, 0.3, 0.3", "0"), ("0.3, 0.3", "0")],
+        vec![("0.3, 0.3, 0.3, 0.3, 0.3", "0"), ("0.3, 0.3, 0.3", "0.315"), ("0.3", "0.63")],
+        // A footing that is wider on both sides.
+        vec![("0.5, 0.5, 0.5", "-0.2"), one, two, one],
+    ] {
+        assert_eq!(told(&fine), [""; 0], "{fine:?}");
+    }
+}
+
+/// 800 courses where 80 were meant: 52 m of half a brick.
+#[test]
+fn walls_higher_than_any_of_their_thickness_are_told() {
+    let told =
+        |courses: &str| prepared(&WALL.replace("courses = 2", &format!("courses = {courses}")), "panel[0].brick");
+    assert_eq!(
+        told("800"),
+        [
+            "panel[0].brick.thickness is 0.12 m, and the panel 52 m high, 433 times as much: walls have up to 40; look at thickness, `brick.height` and `courses`"
+        ]
+    );
+    assert_eq!(told("80"), [""; 0]);
+}
+
+/// Two seconds of a weak wave and a strong one at 0.35 g between: what cuts the strong part off is told, with what is left.
+#[test]
+fn records_that_lose_their_strongest_part_are_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let wave = |k: i32| if (200..240).contains(&k) { 0.35 } else { 0.05 } * (0.3 * f64::from(k)).sin();
+    let samples: String = (0..400).map(|k| format!("{}\n", wave(k))).collect();
+    std::fs::write(folder.path().join("x.txt"), format!("# dt = 0.005 s, units: g\n{samples}")).expect("a record");
+    let told = |keys: &str| {
+        let moved = format!("base = {{ record = \"x.txt\"{keys} }}");
+        let text = WALL.replace("base = { synthetic = { seed = 1, pga = 3.0, duration = 5.0, dt = 0.005 } }", &moved);
+        let prepared = concio::run::prepare_case(case(&text), folder.path()).unwrap_or_else(|e| panic!("{e}"));
+        let of_record = prepared.model.warnings.iter().filter(|w| w.contains("this leaves"));
+        of_record.map(|w| w.text.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        told(", trim = [0, 0.9], pga = \"0.6 g\""),
+        [
+            "motion.base.trim: of the record's peak acceleration of 0.35 g this leaves 0.05 g: its strongest part is gone, and `pga` multiplies what is left by 12"
+        ]
+    );
+    assert!(told(", baseline = { high_pass = \"30 Hz\" }")[0].contains("its strongest part is gone"));
+    let sampled = told(", resample = 0.05");
+    assert!(sampled[0].starts_with("motion.base.resample: of the record's peak acceleration of 0.35 g"), "{sampled:?}");
+    for fine in
+        ["", ", trim = [0.9, 1.9]", ", baseline = { high_pass = \"0.5 Hz\" }", ", resample = 0.01", ", scale = 0.1"]
+    {
+        assert_eq!(told(fine), [""; 0], "{fine}");
+    }
+}
+
 /// A region in millimetres holds the whole wall, and a change that was meant for a corner is one of all joints.
 #[test]
 fn regions_that_choose_nothing_are_told() {
@@ -1154,6 +1288,24 @@ fn records_scaled_by_g_or_one_without_the_other_are_told() {
     for fine in ["units = \"g\"", "units = \"m/s2\", pga = \"0.35 g\""] {
         assert_eq!(bare(fine), [""; 0], "{fine}");
     }
+    // And with a wrong one in the file: numbers in g, numbers in m/s², and numbers that may be both.
+    for (unit, factor, peak, meant) in [
+        ("m/s2", 1.0, "0.0357", "Is it 0.35 g? Then its unit is \"g\""),
+        ("cm/s2", 9.80665, "0.0035", "Is it 0.35 g? Then its unit is \"m/s2\""),
+        ("cm/s2", 3.0, "0.00107", "Is it 1.05 g, or 0.107 g? Then its unit is \"g\", or \"m/s2\""),
+    ] {
+        let numbers: String = (0..400).map(|k| format!("{}\n", 0.35 * factor * (0.3 * f64::from(k)).sin())).collect();
+        std::fs::write(folder.path().join("wrong.txt"), format!("# dt = 0.005 s, units: {unit}\n{numbers}"))
+            .expect("a record");
+        let said = format!(
+            "motion.base.record: the unit in the file is \"{unit}\", in which the record's peak acceleration is {peak} g: it hardly moves a wall. {meant}"
+        );
+        assert_eq!(told("record = \"wrong.txt\"", ""), [said]);
+        assert_eq!(told("record = \"wrong.txt\", pga = \"0.35 g\"", ""), [""; 0]);
+    }
+    // A limit is not told of itself.
+    assert_eq!(told(&x(", pga = \"3 g\""), ""), [""; 0]);
+    assert!(told(&x(", pga = \"3.0001 g\""), "")[0].contains("3.0001 g as it moves the wall, more than 3 g"));
     assert_eq!(
         told(&x(", pga = \"0.7 g\""), &z("")),
         [

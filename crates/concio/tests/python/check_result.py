@@ -345,6 +345,12 @@ def check_collapse(result):
     require(0 <= block < len(result.file["wall/blocks/name"]), "collapse/block")
     require(result.array("collapse/displacement", (), "f8", "m") >= 0, "collapse/displacement")
     require(result.array("collapse/turned", (), "u1", "1") in (0, 1), "collapse/turned")
+    # Of walls in the plane alone.
+    if "collapse/before" in result.file:
+        require(result.array("collapse/before/residual", (), "f8", "1") >= 0, "collapse/before/residual")
+        steps, *parts = [result.array(f"collapse/before/{name}", (), "u8", "1") for name in ("steps", "unsolved", "moving")]
+        require(all(part <= steps for part in parts), "collapse/before")
+        require(steps <= result.file["counters/steps"][()], "collapse/before/steps")
 
 
 def check_sums(result, unknowns, joints):

@@ -3,7 +3,7 @@
 use concio::bond;
 use concio::case::{BlockForce, Case};
 use concio::model::Model;
-use concio::planar::{Planar, Rest};
+use concio::planar::{Planar, Rest, tie_lines};
 use concio::quantity::Force;
 use concio_planar::joint::{Law, Normal};
 
@@ -129,7 +129,10 @@ pub fn rest(rest: Rest, bonds: usize) -> String {
             format!("stands{settled}{cracked}")
         }
         Rest::Settles(way) => {
-            format!("not at rest after {} at most, and laid unsettled: soft joints, or a slow fall", si(way, "m"))
+            format!(
+                "not found: it still moves after settling by {} at most, and the run begins with it as laid. Its joints are soft, or it falls slowly",
+                si(way, "m")
+            )
         }
         Rest::Falls => "does not stand: it falls before anything moves".into(),
     }
@@ -156,15 +159,49 @@ pub fn force_rows(case: &Case) -> Vec<Vec<String>> {
     std::iter::once(head).chain(case.forces.iter().enumerate().map(row)).collect()
 }
 
-/// The tie rods; nothing where there are none.
-pub fn tie_rows(case: &Case, planar: &Planar) -> Vec<Vec<String>> {
+/// The tie rods, each with the places of its ends; nothing where there are none.
+pub fn tie_rows(case: &Case, model: &Model, planar: &Planar) -> Vec<Vec<String>> {
     if planar.system.ties.is_empty() {
         return Vec::new();
     }
-    let mut rows = vec![["ties", "from", "to", "stiffness", "yields at"].map(String::from).to_vec()];
-    for (number, (rod, tie)) in planar.system.ties.iter().zip(&case.ties).enumerate() {
+    let head = ["ties", "from", "at", "to", "at", "length", "stiffness", "yields at"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    let lines = tie_lines(case, &model.wall);
+    for (number, ((rod, tie), [x0, y0, x1, y1])) in planar.system.ties.iter().zip(&case.ties).zip(lines).enumerate() {
         let yields = if rod.yield_force.is_finite() { si(rod.yield_force, "N") } else { "–".into() };
-        rows.push(vec![(number + 1).to_string(), tie.from.clone(), tie.to.clone(), si(rod.stiffness, "N/m"), yields]);
+        let [from, to] = [[x0, y0], [x1, y1]].map(|at| format!("{}, {} m", metres(at[0]), metres(at[1])));
+        let (number, length) = ((number + 1).to_string(), si((x1 - x0).hypot(y1 - y0), "m"));
+        rows.push(vec![number, tie.from.clone(), from, tie.to.clone(), to, length, si(rod.stiffness, "N/m"), yields]);
     }
     rows
+}
+
+/// A place to the millimetre.
+fn metres(x: f64) -> String {
+    // No minus before 0.
+    format!("{:.3}", x + 0.0).replace("-0.000", "0.000")
+}
+
+/// Whether a wall and its ties are their own mirror image, so that a push to one side is one to the other.
+pub fn is_symmetric(case: &Case, model: &Model) -> bool {
+    let blocks = &model.wall.blocks;
+    let [left, right] =
+        blocks.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, r], b| [l.min(b.x[0]), r.max(b.x[1])]);
+    let grain = 1e-6 * (right - left).max(f64::MIN_POSITIVE);
+    let rounded = |v: f64| (v / grain).round() as i64;
+    // The two ends of anything, the first to the left.
+    let both = |x: [f64; 2], own: [f64; 2], mirrored: [f64; 2]| {
+        let all = |x: [f64; 2], y: [f64; 2]| [x[0], x[1], y[0], y[1]].map(rounded);
+        (all([x[0] - left, x[1] - left], own), all([right - x[1], right - x[0]], mirrored))
+    };
+    let of_blocks = blocks.iter().map(|b| both(b.x, b.y, b.y));
+    let of_ties = tie_lines(case, &model.wall).into_iter().map(|[x0, y0, x1, y1]| match x0 <= x1 {
+        true => both([x0, x1], [y0, y1], [y1, y0]),
+        false => both([x1, x0], [y1, y0], [y0, y1]),
+    });
+    let (mut own, mut mirrored): (Vec<_>, Vec<_>) = of_blocks.chain(of_ties).unzip();
+    own.sort_unstable();
+    mirrored.sort_unstable();
+    // Neighbouring grains are one place.
+    own.iter().zip(&mirrored).all(|(a, b)| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1))
 }

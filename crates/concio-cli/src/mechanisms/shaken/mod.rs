@@ -144,7 +144,7 @@ impl Sign {
             (Verdict::Chance, _) => ("chance", "a matter of chance: peaks differ by a tenth".into()),
             (Verdict::Stands, Stop::Moving) => ("moves", "stands so far, still moves".into()),
             (Verdict::Stands, _) if self.displacement() == 0.0 => ("rests", "rests".into()),
-            (Verdict::Stands, _) if beyond_d0 => ("stands", "stands, came back from beyond d0".into()),
+            (Verdict::Stands, _) if beyond_d0 => ("stands", "stands, came back from beyond θ0".into()),
             (Verdict::Stands, _) if life.is_some_and(|life| self.displacement() > life) => {
                 ("stands", "stands, beyond d_SLV".into())
             }

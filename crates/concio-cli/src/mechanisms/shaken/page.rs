@@ -40,8 +40,8 @@ pub fn sections(shaken: &Shaken) -> Vec<Section> {
 fn section(shaken: &Shaken, case: &Case) -> Section {
     let figure = case.followed.as_ref().ok().map(|followed| Figure {
         name: shaken.file(case),
-        caption: "Displacement of the control point, positive outwards. Beyond d0 weights and thrusts alone hold the wall no longer; a fall is \
-                  drawn to 1.3 d0."
+        caption: "Displacement of the control point, positive outwards. Beyond d_C0, where θ0 is reached, weights and thrusts alone hold the wall no longer; a fall is \
+                  drawn to 1.3 d_C0."
             .into(),
         drawing: drawing(case, followed),
     });
@@ -83,7 +83,7 @@ fn drawing(case: &Case, followed: &Followed) -> Drawing {
     let last = followed.last.map(|last| last.displacement).filter(|last| *last > 0.0);
     // Outwards and inwards; d_SLV inwards is the same part of d0 there.
     let life = followed.life.map(|life| [Some(life), followed.last_inwards.zip(last).map(|(d, last)| life * d / last)]);
-    let levels = [(Some([last, followed.last_inwards]), "d0"), (life, "d_SLV")];
+    let levels = [(Some([last, followed.last_inwards]), "d_C0"), (life, "d_SLV")];
     let mut legend = vec!["displacement".to_string()];
     legend.extend(levels.iter().map(|(_, name)| name.to_string()));
     let panel = |sign: &Sign| {

@@ -9,7 +9,7 @@ pub fn told(shaken: &Shaken) -> String {
     let mut text = format!("\ntime history under {}\n", shaken.motion);
     shaken.doubts.iter().for_each(|doubt| text.push_str(&format!("  {doubt}\n")));
     let mut lines = vec![
-        ["mechanism", "hinge", "positive", "sets off at", "turn/θ0", "its spread", "control point", "d0", "outcome"]
+        ["mechanism", "hinge", "positive", "sets off at", "turn/θ0", "its spread", "control point", "d_C0", "outcome"]
             .map(String::from)
             .to_vec(),
     ];
@@ -23,6 +23,9 @@ pub fn told(shaken: &Shaken) -> String {
             text.push_str("  the least of each kind; --all follows every hinge level\n");
         }
         text.push_str("  positive: the side to which positive values of the motion point; a façade does not know the sign of a record\n");
+        text.push_str(
+            "  d_C0: where the control point is at θ0; d0 of the other table is that of the equivalent oscillator\n",
+        );
         text.push_str("  sets off at: the factor of this motion at which it first lifts off\n");
         text.push_str("  spread: six runs, the motion times 0.999 to 1.001 and with half of the step; turns are outwards, or inwards if farther\n");
     }

@@ -10,7 +10,7 @@ use zip::{CompressionMethod, ZipWriter};
 
 use crate::error::{Error, Result};
 use crate::files;
-use crate::outcome::Collapse;
+use crate::outcome::{Before, Collapse};
 use crate::store::fields::{self, Field, Frames, NO_FRICTION, check_lengths, device_name, keyword, other_side};
 use crate::store::outlines::{self, Outlines};
 use crate::store::{FrictionRow, StoredRun};
@@ -184,11 +184,17 @@ fn fill_sums(archive: &mut Archive, run: &StoredRun) -> io::Result<()> {
     for field in &fields::COUNTERS {
         archive.array(&format!("counters/{}", field.name), &[], [*(field.get)(&outcome.counters)])?;
     }
-    if let Some(Collapse { time, block, way, turned }) = outcome.totals.collapse {
+    if let Some(Collapse { time, block, way, turned, before }) = outcome.totals.collapse {
         archive.array("collapse/time", &[], [time])?;
         archive.array("collapse/block", &[], [block as i64])?;
         archive.array("collapse/displacement", &[], [way])?;
         archive.array("collapse/turned", &[], [u8::from(turned)])?;
+        if let Some(Before { residual, steps, unsolved, moving }) = before {
+            archive.array("collapse/before/residual", &[], [residual])?;
+            for (name, count) in [("steps", steps), ("unsolved", unsolved), ("moving", moving)] {
+                archive.array(&format!("collapse/before/{name}"), &[], [count])?;
+            }
+        }
     }
     archive.array("totals/time_reached", &[], [outcome.time_reached])
 }

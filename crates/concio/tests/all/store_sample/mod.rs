@@ -4,7 +4,7 @@
 use concio::bond::BondRow;
 use concio::case::{DeviceLaw, FrictionLaw, JointKind, SpringLaw};
 use concio::drift::DriftRow;
-use concio::outcome::{Collapse, Outcome, TieRow, Totals};
+use concio::outcome::{Before, Collapse, Outcome, TieRow, Totals};
 use concio::record::{Channel, Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
 use concio::store::{FrictionRow, JointRow, Provenance};
 use concio::wall::{Block, End, Joint, PanelInfo, Shape, Wall};
@@ -237,7 +237,13 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
             peak_input: 8.0,
             peak_work: 16.0,
             peak_residual: 2.0e-6,
-            collapse: wall.blocks.first().map(|_| Collapse { time: 0.06, block: 0, way: 0.25, turned: true }),
+            collapse: wall.blocks.first().map(|_| Collapse {
+                time: 0.06,
+                block: 0,
+                way: 0.25,
+                turned: true,
+                before: Some(Before { residual: 1e-5, steps: 60, unsolved: 1, moving: 2 }),
+            }),
         },
         counters: Counters {
             steps: 10,
