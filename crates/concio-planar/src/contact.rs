@@ -180,13 +180,13 @@ pub struct Contact {
     pub impulse: [f64; 2],
     /// What it does.
     pub status: Status,
-    /// Whether it is open too far to bear anything in the step, by what is known before.
-    pub(crate) apart: bool,
+    /// Whether it is left out of the solution: open too far to bear anything in the step, by what is known before.
+    pub(crate) left_out: bool,
 }
 
 /// By how many times the speed at which its bodies could approach at their fastest a contact may be too far open to bear, and be left out. With half of it one step in 28
 /// of a falling façade is solved again as something closed all the same, a wall of rigid stones that rocks takes 8 % more iterations; with twice as much a fifth fewer are left out.
-const APART: f64 = 4.0;
+const STRUCK: f64 = 4.0;
 
 impl Contact {
     /// Of a body with another, or with the base, that bore `impulse` [N s] before and has no law yet. Derivatives of the parting and
@@ -226,7 +226,7 @@ impl Contact {
             moved,
             impulse,
             status: Status::Open,
-            apart: false,
+            left_out: false,
         }
     }
 
@@ -249,12 +249,12 @@ impl Contact {
         [change[0] + self.drift[0], change[1] + self.drift[1]]
     }
 
-    /// Says whether it is open so far that it bears nothing at velocities near `v` and `free`, those without contact [m/s].
-    pub(crate) fn see_apart(&mut self, v: &[Triple], free: &[Triple]) {
+    /// Leaves it out if it is open so far that it bears nothing at velocities near `v` and `free`, those without contact [m/s].
+    pub(crate) fn leave_out(&mut self, v: &[Triple], free: &[Triple]) {
         let alone = self.spring == [Linear::default(); 2] && self.hold == 0.0 && self.pressure[0] == 0.0;
         let speed = || self.rows.fastest(v).max(self.rows.fastest(free)) + self.drift[0].abs();
-        self.apart = alone && self.impulse == [0.0; 2] && self.law[0].at(self.bias - APART * speed()) < 0.0;
-        if self.apart {
+        self.left_out = alone && self.impulse == [0.0; 2] && self.law[0].at(self.bias - STRUCK * speed()) < 0.0;
+        if self.left_out {
             self.status = Status::Open;
         }
     }

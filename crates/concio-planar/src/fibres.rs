@@ -236,3 +236,57 @@ const PLACES: [f64; FIBRES] = {
     }
     places
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Fibres of a joint that slides and opens by straight lines, followed several at once where they are pressed all over and not at all where they hang free, do what
+    /// they do one by one: to rounding, over fifty steps of any opening, also at no pressure and where it opens at a fibre.
+    #[test]
+    fn quick_ways_do_what_each_fibre_does_alone() {
+        let (stiffness, mu, mut seed) = (3e9, 0.6, 7_u64);
+        let mut next = || {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (seed >> 33) as f64 / (1u64 << 30) as f64 - 1.0
+        };
+        let (mut sticks, mut slides, mut opens) = (0, 0, 0);
+        for _ in 0..100 {
+            let [mut quick, mut slow] = [Fibres::new(true), Fibres::new(true)];
+            for step in 0..50 {
+                let sunk = match step % 5 {
+                    0 => [0.0, 1e-5 * next()],
+                    1 => [1e-5, -1e-5],
+                    _ => [1e-5 * next(), 1e-5 * next()],
+                };
+                let slide = [1e-5 * next(), 1e-6 * next()];
+                let at = |x: f64| sunk[0] + x * (sunk[1] - sunk[0]);
+                let around = |x: f64| {
+                    let [pressed, sprung] = above([(x - HALF).max(0.0), (x + HALF).min(1.0)].map(at));
+                    Stands { slide: slide[0] + x * slide[1], most: mu * stiffness * sprung, pressed }
+                };
+                let expected = slow.follow(stiffness, 0..FIBRES, around);
+                let [closed, begins, hangs] = parts(sunk);
+                assert_eq!(closed.len() + begins.len() + hangs.len(), FIBRES, "{sunk:?}");
+                opens += hangs.len();
+                quick.hang(hangs);
+                let press = [stiffness * sunk[0], stiffness * (sunk[1] - sunk[0])];
+                let lines = Lines { slide, press, limit: f64::INFINITY, mu };
+                let found = quick.follow_pressed(stiffness, closed.clone(), &lines);
+                let found = found.and(quick.follow(stiffness, begins, around));
+                // At the ends the quick way takes the pressure there for that of half a fibre: 1/128 of 1/64.
+                let size = stiffness * 2e-5;
+                assert!((found.whole - expected.whole).abs() < 1e-4 * size, "{found:?} {expected:?} {sunk:?}");
+                assert!((found.energy - expected.energy).abs() < 1e-4 * size * 2e-5, "{found:?} {expected:?}");
+                for n in closed.filter(|n| (1..FIBRES - 1).contains(n)) {
+                    let stretch = |fibres: &Fibres| fibres.anchors[n] - slide[0] - PLACES[n] * slide[1];
+                    assert!((stretch(&quick) - stretch(&slow)).abs() < 1e-15 && quick.pressed[n] == 1.0);
+                    let most = mu * stiffness * at(PLACES[n]);
+                    let slid = (stiffness * stretch(&quick)).abs() > most * (1.0 - 1e-9);
+                    *if slid { &mut slides } else { &mut sticks } += 1;
+                }
+            }
+        }
+        assert!(sticks > 1000 && slides > 1000 && opens > 1000, "{sticks} {slides} {opens}");
+    }
+}

@@ -173,6 +173,8 @@ struct Step<'a> {
     tolerance: f64,
     enough: f64,
     yields: bool,
+    /// Contacts that are not left out.
+    all: usize,
 }
 
 /// What contacts are like, for how a step is solved.
@@ -180,14 +182,15 @@ struct Step<'a> {
 pub(crate) struct Survey {
     /// Whether none bore anything.
     new: bool,
-    /// How many are of the most frequent kind, and how many do not yield.
+    /// How many are not left out, how many of them are of the most frequent kind, and how many do not yield.
+    all: usize,
     plain: usize,
     firm: usize,
 }
 
 impl Default for Survey {
     fn default() -> Self {
-        Survey { new: true, plain: 0, firm: 0 }
+        Survey { new: true, all: 0, plain: 0, firm: 0 }
     }
 }
 
@@ -195,9 +198,10 @@ impl Survey {
     /// Another contact.
     pub fn see(&mut self, contact: &Contact) {
         self.new &= contact.impulse == [0.0; 2];
-        if contact.apart {
+        if contact.left_out {
             return;
         }
+        self.all += 1;
         self.plain += usize::from(is_plain(contact));
         self.firm += usize::from(contact.law[0].rho * YIELDS >= contact.moved[0]);
     }
@@ -217,8 +221,8 @@ impl Interior {
     ) -> Effort {
         self.guess.clear();
         self.guess.extend_from_slice(v);
-        let yields = survey.firm * finish::SETTLED <= contacts.len();
-        let step = Step { bodies: (mass, free), tolerance, enough, yields };
+        let yields = survey.firm * finish::SETTLED <= survey.all;
+        let step = Step { bodies: (mass, free), tolerance, enough, yields, all: survey.all };
         let mut effort = Effort { residual: f64::INFINITY, ..Effort::default() };
         for (number, Attempt { begins, patience }) in LADDER.into_iter().enumerate() {
             let skips = begins == Begins::AsBefore && survey.new;
@@ -264,7 +268,7 @@ impl Interior {
         v: &mut [Triple],
         Attempt { begins, patience }: Attempt,
     ) -> Effort {
-        let Step { bodies, tolerance, enough, yields } = *step;
+        let Step { bodies, tolerance, enough, yields, .. } = *step;
         let mut effort = Effort::default();
         let (mut near, mut least, mut since) = (finish::NEAR * tolerance, f64::INFINITY, 0);
         // Share of the last direction that is gone.
@@ -353,7 +357,7 @@ impl Interior {
         // What is left over of packs are the last.
         let mut packs = survey.plain / PACK;
         let (mut numbers, mut waiting) = ([0; PACK], 0);
-        for (number, contact) in contacts.iter().enumerate().filter(|(_, contact)| !contact.apart) {
+        for (number, contact) in contacts.iter().enumerate().filter(|(_, contact)| !contact.left_out) {
             let u = contact.velocity(v);
             if packs > 0 && is_plain(contact) {
                 numbers[waiting] = number as u32;
@@ -625,8 +629,8 @@ mod tests {
             free.iter_mut().skip(1).for_each(|v| *v = [0.0; 3]);
             let apart = |contact: &Contact| {
                 let mut contact = *contact;
-                contact.see_apart(&[[0.0; 3]; 6], &free);
-                contact.apart
+                contact.leave_out(&[[0.0; 3]; 6], &free);
+                contact.left_out
             };
             let before: Vec<bool> = own.iter().map(apart).collect();
             let (mut v, mut solver) = (vec![[0.0; 3]; 6], new.clone());
@@ -635,7 +639,7 @@ mod tests {
                 let left = left(&own, &v, &free);
                 assert!(left < 1e-5, "seed {seed}: {left:e} {effort:?}");
                 solved += 1;
-                left_out += own.iter().filter(|contact| contact.apart).count();
+                left_out += own.iter().filter(|contact| contact.left_out).count();
                 closed += before.iter().zip(&own).filter(|(before, own)| **before && own.impulse[0] > 0.0).count();
             }
         }

@@ -82,9 +82,6 @@ const JUMP: f64 = 3e-6;
 /// Contact points of a pair that are kept in place: joints whose points move have more.
 const POINTS: usize = 3;
 
-/// Points of what has cracked and their gaps [m].
-pub(crate) type Gaps = SmallVec<[(usize, f64); crack::DRY]>;
-
 /// A point of a joint without bond, but for where it is and how much of the joint.
 const UNBONDED: Spot = Spot {
     point: 0,
@@ -1099,7 +1096,7 @@ impl Motion {
     }
 
     /// Whether something holds `of` a joint that can be crushed: of its points, and of the gaps that these have at a part of the step of `h` [s] [m].
-    fn any_crushing(&self, h: f64, of: impl Fn(&Crack, &Law, &[Point], &dyn Fn(f64) -> Gaps) -> bool) -> bool {
+    fn any_crushing(&self, h: f64, of: impl Fn(&Crack, &Law, &[Point], &dyn Fn(f64) -> crack::Gaps) -> bool) -> bool {
         let mut at = 0;
         self.owners.chunk_by(|a, b| a.pair == b.pair).any(|owners| {
             let contacts = &self.contacts[at..at + owners.len()];

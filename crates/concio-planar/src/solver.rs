@@ -40,7 +40,8 @@ impl Solver {
     }
 
     /// Solves a step to `tolerance` [m/s], or leaves `enough` [m/s] where it does not come nearer. `v` holds a guess on entry, contacts the
-    /// impulses of before. What is rather taken in two halves (`halves`) is left sooner where it stalls.
+    /// impulses of before. What is rather taken in two halves (`halves`) is left sooner where it stalls. Contacts open too far to be struck are left out; if some close
+    /// all the same, it is solved once more with those, from the same guess.
     pub fn solve(
         &mut self,
         mass: &[Triple],
@@ -50,19 +51,19 @@ impl Solver {
         (tolerance, enough): (f64, f64),
         halves: bool,
     ) -> Effort {
-        contacts.iter_mut().for_each(|contact| contact.see_apart(v, free));
+        contacts.iter_mut().for_each(|contact| contact.leave_out(v, free));
         let mut effort = Effort::default();
         loop {
-            // All that is asked of each, in one go: where there are many they are far away.
             let mut survey = Survey::default();
             contacts.iter().for_each(|contact| survey.see(contact));
             let (all, ends) = ((&mut *contacts, &survey), (tolerance, enough));
             effort = effort.then(self.interior.solve(&mut self.matrix, (mass, free), all, v, ends, halves));
+            // Of what comes to no solution in a step that is halved, velocities say nothing.
             let mut whole = true;
-            for contact in contacts.iter_mut().filter(|contact| contact.apart && contact.closes(v)) {
-                (contact.apart, whole) = (false, false);
+            for contact in contacts.iter_mut().filter(|contact| contact.left_out && contact.closes(v)) {
+                (contact.left_out, whole) = (false, false);
             }
-            if whole {
+            if whole || halves && !(effort.residual <= enough) {
                 return effort;
             }
             v.copy_from_slice(self.interior.guess());

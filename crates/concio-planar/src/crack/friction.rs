@@ -1,6 +1,6 @@
 //! What a joint bears along where it has no bond: what its points take over from its fibres, and what friction takes.
 
-use super::{Crack, DRY, POINTS, Worn, between};
+use super::{BETWEEN_FIBRES, Crack, DRY, POINTS, Worn, between};
 use crate::fibres::{FIBRES, HALF, Lines, Sheared, Stands, above, parts};
 use crate::joint::{Law, Part, Point};
 
@@ -87,7 +87,7 @@ impl Crack {
             let ends = [(x - HALF).max(0.0), (x + HALF).min(1.0)];
             // In the middle of a step not all is crushed yet that is by its end.
             let [pressed, sprung] = above(ends.map(|x| {
-                let before = shallower.get((x * 2.0 * (FIBRES - 1) as f64).round() as usize);
+                let before = shallower.get((x * (BETWEEN_FIBRES - 1) as f64).round() as usize);
                 if still { -opens(x) - deep(x) } else { (-opens(x) - before.unwrap_or(&0.0)).min(most) }
             }));
             let damped = pressed * damping * (parting[0] + x * (parting[1] - parting[0]));
@@ -106,12 +106,6 @@ impl Crack {
         } else {
             fibres.follow(along, 0..FIBRES, around)
         };
-        if !even {
-            let places = (2 * (FIBRES - 1)) as f64;
-            for (n, depth) in shallower.iter_mut().enumerate() {
-                *depth = crushed.get((n as f64 / places * last).round() as usize).copied().unwrap_or(0.0);
-            }
-        }
         // Friction took this of points that were pressed less in the step than at its end.
         let rubbed = std::mem::take(&mut fibres.rubbed);
         let most = (before + if still { rubbed } else { 0.0 }).max(0.0);
@@ -163,7 +157,7 @@ impl Crack {
     fn spread(&self, law: &Law, points: &mut [Point], limits: &[f64; POINTS], [whole, energy]: [f64; 2]) {
         let along = law.breaking_stiffness();
         let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
-        // Of what is open.
+        // What is open bears nothing.
         if whole == 0.0 || energy == 0.0 {
             return dry().for_each(|spot| points[spot.point].bearing = 0.0);
         }

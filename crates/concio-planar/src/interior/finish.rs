@@ -27,7 +27,7 @@ impl Interior {
     pub(super) fn finish(
         &mut self,
         matrix: &mut Blocks,
-        &Step { bodies: (mass, free), tolerance, .. }: &Step,
+        &Step { bodies: (mass, free), tolerance, all, .. }: &Step,
         contacts: &[Contact],
         v: &mut [Triple],
         (led, patience): (bool, usize),
@@ -53,7 +53,7 @@ impl Interior {
                 effort.converged = true;
                 return effort;
             }
-            let far = k >= patience && changed * SETTLED > contacts.len();
+            let far = k >= patience && changed * SETTLED > all;
             let falls = !far && (k <= FREELY || left < last || changed < fewest);
             if k > 0 {
                 fewest = fewest.min(changed);

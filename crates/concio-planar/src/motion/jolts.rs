@@ -17,7 +17,7 @@ const SETTLES: f64 = 5.0;
 /// that gravity gives in that time [s]: short steps need no parts.
 const SPENT: f64 = 0.01;
 const RINGS: f64 = 5e-3;
-/// How many steps ahead it is looked whether a load crushes a joint as a whole: how it swings until then decides how far.
+/// How many steps, or parts of steps, ahead it is looked whether a load crushes a joint as a whole: how it swings until then decides how far.
 const NEARS: f64 = 50.0;
 /// What a joint bears before it closes, over all that it takes as it closes and over the energy of motion, from which it counts.
 const EARLY: f64 = 0.01;
@@ -62,7 +62,7 @@ impl Motion {
     }
 
     /// Whether bonds take so much of the motion in a step of `h` [s] that it counts how what they held rings then, or a joint nears its strength as a whole; or did a
-    /// little before. Of a step that was not halved `soon` before, only the joint counts: how its spring swings takes shorter ones.
+    /// little before. After the first halvings, of a step that is not as long (`soon`), only the joint counts: how its spring swings takes shorter ones.
     pub(super) fn rings(&mut self, h: f64, soon: bool) -> bool {
         if self.setting.still {
             return false;
