@@ -173,8 +173,6 @@ struct Step<'a> {
     tolerance: f64,
     enough: f64,
     yields: bool,
-    /// Contacts that are not left out.
-    all: usize,
 }
 
 /// What contacts are like, for how a step is solved.
@@ -222,7 +220,7 @@ impl Interior {
         self.guess.clear();
         self.guess.extend_from_slice(v);
         let yields = survey.firm * finish::SETTLED <= survey.all;
-        let step = Step { bodies: (mass, free), tolerance, enough, yields, all: survey.all };
+        let step = Step { bodies: (mass, free), tolerance, enough, yields };
         let mut effort = Effort { residual: f64::INFINITY, ..Effort::default() };
         for (number, Attempt { begins, patience }) in LADDER.into_iter().enumerate() {
             let skips = begins == Begins::AsBefore && survey.new;
@@ -268,7 +266,7 @@ impl Interior {
         v: &mut [Triple],
         Attempt { begins, patience }: Attempt,
     ) -> Effort {
-        let Step { bodies, tolerance, enough, yields, .. } = *step;
+        let Step { bodies, tolerance, enough, yields } = *step;
         let mut effort = Effort::default();
         let (mut near, mut least, mut since) = (finish::NEAR * tolerance, f64::INFINITY, 0);
         // Share of the last direction that is gone.

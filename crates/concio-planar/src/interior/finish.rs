@@ -18,7 +18,7 @@ pub(super) const MOST: usize = 12;
 /// Iterations after which each has to leave less than the last, or let fewer contacts do something else than all before: in a large wall what is left
 /// is that of one place, and rises there while the others settle.
 const FREELY: usize = 3;
-/// No more than one of so many contacts may do something else than in the last look once patience is over: where more do, hardly any is solved.
+/// No more than one of so many contacts, those left out among them, may do something else than in the last look once patience is over: where more do, hardly any is solved.
 pub(super) const SETTLED: usize = 10;
 
 impl Interior {
@@ -27,7 +27,7 @@ impl Interior {
     pub(super) fn finish(
         &mut self,
         matrix: &mut Blocks,
-        &Step { bodies: (mass, free), tolerance, all, .. }: &Step,
+        &Step { bodies: (mass, free), tolerance, .. }: &Step,
         contacts: &[Contact],
         v: &mut [Triple],
         (led, patience): (bool, usize),
@@ -53,7 +53,7 @@ impl Interior {
                 effort.converged = true;
                 return effort;
             }
-            let far = k >= patience && changed * SETTLED > all;
+            let far = k >= patience && changed * SETTLED > contacts.len();
             let falls = !far && (k <= FREELY || left < last || changed < fewest);
             if k > 0 {
                 fewest = fewest.min(changed);
