@@ -544,6 +544,11 @@ impl Crack {
         (ends + (1..NODES - 1).map(f).sum::<f64>()) / (NODES - 1) as f64
     }
 
+    /// Whether its points stand for something that is crushed.
+    pub(crate) fn is_crushed(&self) -> bool {
+        self.spots.iter().any(|spot| spot.crushed != 0.0)
+    }
+
     /// The most that is crushed of it [m].
     pub fn depth(&self) -> f64 {
         self.crushed.iter().copied().fold(0.0, f64::max)

@@ -7,6 +7,7 @@ use super::{Motion, Owner};
 use crate::G;
 use crate::blocks::Triple;
 use crate::contact::Contact;
+use crate::crack::Crack;
 use crate::joint::{Law, Part, Point, RESTING, slides};
 
 /// Part of the energy of motion from which landing counts, and what counts as motion at least, over the velocity that gravity gives in a
@@ -74,11 +75,11 @@ impl Motion {
         nears || soon && (self.time < self.rings_until || self.crushes && self.crushes_fast(h))
     }
 
-    /// Whether joints that can be crushed bear so much before they close that it counts: what closes in a step bears in all of it, and what that takes crushes
-    /// nothing.
+    /// Whether joints that were crushed bear so much before they close that it counts: what closes in a step bears in all of it, and what that takes crushes
+    /// nothing. Others are not asked: their springs ring in shorter steps.
     fn closes_early(&self, h: f64) -> bool {
         let crushing = |(_, owner): &(&Contact, &Owner)| {
-            owner.part == Part::Dry && self.laws.of(self.pairs[owner.pair].link).crushing.is_finite()
+            owner.part == Part::Dry && self.pairs[owner.pair].crack.as_ref().is_some_and(Crack::is_crushed)
         };
         let took = |(contact, owner): (&Contact, &Owner)| {
             let open = owner.start.gap + self.pairs[owner.pair].points[owner.point].crushed;

@@ -303,6 +303,30 @@ top = {{ path = {{ displacements = ["5 mm"], speed = "2 mm/s" }} }}
     assert!(moves.impact < 0.01 * moves.bond, "{} J", moves.impact);
 }
 
+/// What a level beam drives to and fro under 60 kN slides below it as on a joint that cannot be crushed, as long as f_c is not reached: μ N over 20 mm is 480 J.
+#[test]
+fn a_strength_that_is_not_reached_leaves_friction_as_it_is() {
+    let stone = block(
+        r#"mortar = { bed = 0, head = 0 }
+[joint]
+bed = { law = "rigid", compressive_strength = "1 MPa", damping_ratio = 0 }
+head = { law = "none" }
+friction = { law = "coulomb", static = 0.4 }
+[load]
+top = { force = "60 kN" }
+beam = "driven"
+beam_rotation = "fixed"
+[motion]
+top = { path = { displacements = ["4 mm", "-4 mm", "4 mm"], speed = "20 mm/s" } }
+"#,
+    );
+    let stone = stone.replace("length = 0.5, height = 0.5, thickness = 1", "length = 1, height = 1, thickness = 0.5");
+    let (_, outcome) = ran(&stone);
+    assert_eq!(outcome.energies.bond, 0.0);
+    let subject = "Crushing: stone that a level beam drives to and fro in motion, f_c not reached; energy of friction";
+    agrees!(subject, "μ N over the way", "J", outcome.energies.friction, 480.0, 1e-2);
+}
+
 /// Breaking in shear takes G_f^II A under any pressure, and friction μ N takes the place of what the strength c A + N tan φ loses on the way (B4), (B5).
 #[test]
 fn a_full_break_takes_its_energy_under_any_pressure() {
