@@ -982,6 +982,10 @@ fn bricks_and_bonds_of_no_masonry_are_told() {
             "panel[0].brick.thickness is 1.2 m, 4.8 times the length of 0.25 m: bricks have at most 4; did you mean \"0.12 m\"?"
         ]
     );
+    // Hollow blocks of 250 mm on end, and soldiers.
+    for upright in ["length = 0.12, height = 0.25", "length = 0.065, height = 0.215"] {
+        assert_eq!(told("length = 0.25, height = 0.055", upright), [""; 0], "{upright}");
+    }
     // A Roman tile, and a wall as thick as four bricks.
     assert_eq!(told("length = 0.25, height = 0.055", "length = 0.59, height = 0.045"), [""; 0]);
     assert_eq!(told("thickness = 0.12", "thickness = 1.0"), [""; 0]);
@@ -1135,6 +1139,19 @@ fn slips_in_surveyed_courses_are_told() {
         assert!(found.len() == 1 && found[0].ends_with("look at its `bricks` and `offset`"), "{found:?}");
         assert!(found[0].starts_with("panel[0].course[1] goes") && found[0].contains(apart), "{found:?}");
     }
+    // The first of two, one of a whole centimetre too few, and two of eight with their number.
+    let found = told(&[("4.2, 0.26, 0.39", "0"), two]);
+    assert!(found.len() == 1 && found[0].ends_with("did you mean bricks[0] = \"420 mm\"?"), "{found:?}");
+    let found = told(&[one, two, three, ("0.42, 0.026, 0.39", "0")]);
+    assert!(found.len() == 1 && found[0].ends_with("did you mean bricks[1] = \"260 mm\"?"), "{found:?}");
+    let late = ("0.42, 0.26, 0.39", "-0.3");
+    let found = told(&[one, late, three, one, two, late, three, one]);
+    assert!(
+        found.len() == 1
+            && found[0].starts_with("panel[0].course[1] goes from -0.3 to")
+            && found[0].contains("apart (2 courses of this panel do so); look at"),
+        "{found:?}"
+    );
     // A chip in a course that ends right.
     assert_eq!(
         told(&[one, ("0.25, 0.31, 0.02, 0.475", "0"), three]),
@@ -1149,6 +1166,13 @@ fn slips_in_surveyed_courses_are_told() {
         // Steps, on one side and on both.
         vec![("0.3, 0.3, 0.3, 0.3", "0"), ("0.3, 0.3, 0.3", "0"), ("0.3, 0.3", "0")],
         vec![("0.3, 0.3, 0.3, 0.3, 0.3", "0"), ("0.3, 0.3, 0.3", "0.315"), ("0.3", "0.63")],
+        // Quoins long and short by more than half a brick, at one end.
+        vec![("0.3, 0.3, 0.3, 0.6", "0"), one, ("0.3, 0.3, 0.3, 0.6", "0"), one],
+        vec![one, ("0.3, 0.3, 0.3, 0.6", "0"), one, ("0.3, 0.3, 0.3, 0.6", "0"), one],
+        // A ruined top, a footing that is longer on one side, a second course stepped back.
+        vec![one, two, three, ("0.3, 0.4", "0")],
+        vec![("0.5, 0.5, 0.5, 0.5", "0"), one, two, three],
+        vec![one, ("0.3, 0.4", "0")],
         // A footing that is wider on both sides.
         vec![("0.5, 0.5, 0.5", "-0.2"), one, two, one],
     ] {
@@ -1164,10 +1188,12 @@ fn walls_higher_than_any_of_their_thickness_are_told() {
     assert_eq!(
         told("800"),
         [
-            "panel[0].brick.thickness is 0.12 m, and the panel 52 m high, 433 times as much: walls have up to 40; look at thickness, `brick.height` and `courses`"
+            "panel[0].brick.thickness is 0.12 m, and the panel 52 m high, 433 times as much, more than 100; look at thickness, `brick.height` and `courses`"
         ]
     );
-    assert_eq!(told("80"), [""; 0]);
+    // Three storeys of half a brick, 9.1 m, are 76.
+    assert_eq!(told("140"), [""; 0]);
+    assert_eq!(told("190").len(), 1);
 }
 
 /// Two seconds of a weak wave and a strong one at 0.35 g between: what cuts the strong part off is told, with what is left.
