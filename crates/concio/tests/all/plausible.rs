@@ -1224,6 +1224,20 @@ fn records_that_lose_their_strongest_part_are_told() {
     {
         assert_eq!(told(fine), [""; 0], "{fine}");
     }
+    // What is advised of an offset takes no shaking away.
+    let write = |unit: &str, sample: &dyn Fn(i32) -> f64| {
+        let samples: String = (0..400).map(|k| format!("{}\n", sample(k))).collect();
+        std::fs::write(folder.path().join("x.txt"), format!("# dt = 0.005 s, units: {unit}\n{samples}"))
+            .expect("a record");
+    };
+    write("g", &|k| 0.3 + 0.1 * (0.3 * f64::from(k)).sin());
+    assert_eq!(told(", baseline = { polynomial = 0 }"), [""; 0]);
+    // Each step is held to its own limit: 0.25 g of 0.35 g are enough of a trimmed record, and sampling leaves them.
+    write("g", &|k| if k < 200 { 0.25 } else { 0.35 } * (0.3 * f64::from(k)).sin());
+    assert_eq!(told(", trim = [0, 0.9], resample = 0.01"), [""; 0]);
+    // A displacement history has no peak acceleration of its own.
+    write("mm", &wave);
+    assert_eq!(told(", quantity = \"displacement\", trim = [0, 0.9]"), [""; 0]);
 }
 
 /// A region in millimetres holds the whole wall, and a change that was meant for a corner is one of all joints.
@@ -1275,7 +1289,8 @@ fn records_scaled_by_g_or_one_without_the_other_are_told() {
         let upright = if vertical.is_empty() { String::new() } else { format!("vertical = {{ {vertical} }}\n") };
         let case = case(&format!("{wall}base = {{ {base} }}\n{upright}"));
         let prepared = concio::run::prepare_case(case, folder.path()).unwrap_or_else(|e| panic!("{e}"));
-        let words = ["conversion", "few records have", "no longer have the ratio", "hardly moves"];
+        let words =
+            ["conversion", "few records have", "no longer have the ratio", "hardly moves", "less than 0.01 m/s²"];
         let odd = |text: &String| words.into_iter().any(|word| text.contains(word));
         prepared.model.warnings.iter().map(|w| w.text.clone()).filter(odd).collect::<Vec<_>>()
     };
@@ -1319,6 +1334,8 @@ fn records_scaled_by_g_or_one_without_the_other_are_told() {
         ("m/s2", 1.0, "0.0357", "Is it 0.35 g? Then its unit is \"g\""),
         ("cm/s2", 9.80665, "0.0035", "Is it 0.35 g? Then its unit is \"m/s2\""),
         ("cm/s2", 3.0, "0.00107", "Is it 1.05 g, or 0.107 g? Then its unit is \"g\", or \"m/s2\""),
+        // Less than 0.01 m/s² too, which is told once.
+        ("cm/s2", 2.0, "0.000714", "Is it 0.7 g, or 0.0714 g? Then its unit is \"g\", or \"m/s2\""),
     ] {
         let numbers: String = (0..400).map(|k| format!("{}\n", 0.35 * factor * (0.3 * f64::from(k)).sin())).collect();
         std::fs::write(folder.path().join("wrong.txt"), format!("# dt = 0.005 s, units: {unit}\n{numbers}"))
@@ -1329,6 +1346,17 @@ fn records_scaled_by_g_or_one_without_the_other_are_told() {
         assert_eq!(told("record = \"wrong.txt\"", ""), [said]);
         assert_eq!(told("record = \"wrong.txt\", pga = \"0.35 g\"", ""), [""; 0]);
     }
+    // A weak vertical component is no slip beside a base that shakes; beside one as weak both are.
+    let weak = |name: &str, size: f64| {
+        let numbers: String = (0..400).map(|k| format!("{}\n", size * (0.3 * f64::from(k)).sin())).collect();
+        std::fs::write(folder.path().join(name), format!("# dt = 0.005 s, units: m/s2\n{numbers}")).expect("a record");
+    };
+    weak("weak-x.txt", 1.0);
+    weak("weak-z.txt", 0.4);
+    assert_eq!(told("record = \"weak-x.txt\"", "record = \"weak-z.txt\""), [""; 0]);
+    weak("weak-x.txt", 0.45);
+    let both = told("record = \"weak-x.txt\"", "record = \"weak-z.txt\"");
+    assert!(both.len() == 2 && both.iter().all(|w| w.contains("hardly moves")), "{both:?}");
     // A limit is not told of itself.
     assert_eq!(told(&x(", pga = \"3 g\""), ""), [""; 0]);
     assert!(told(&x(", pga = \"3.0001 g\""), "")[0].contains("3.0001 g as it moves the wall, more than 3 g"));
