@@ -553,7 +553,7 @@ mod tests {
     #[test]
     fn what_one_curve_found_is_told_as_it_is() {
         for (capacity, told) in [
-            (Evidence::At(2.5), "reached at 2.5 m/s² by the one curve"),
+            (Evidence::At(2.5), "reached at 2.500 m/s² by the one curve"),
             (Evidence::Within([2.0, 3.0]), "reached between 2 and 3 m/s² by the one curve"),
             (Evidence::Above(4.0), "not reached up to 4 m/s² by the one curve"),
             (Evidence::Below(1.0), "reached at 1 m/s² already, the lowest that was run, by the one curve"),
