@@ -36,7 +36,8 @@ pub fn describe(prepared: &Prepared, folder: &Path) -> Result<Rows, Failure> {
             }
             closed => {
                 found.push((name, closed_form(closed)));
-                found.extend(sense(closed).filter(|_| name == "base").map(|sense| ("", sense)));
+                let in_plane = name == "base" && prepared.model.rocking().is_none();
+                found.extend(sense(closed).filter(|_| in_plane).map(|sense| ("", sense)));
             }
         }
     }
@@ -180,8 +181,8 @@ pub fn short(signal: &Signal) -> String {
 /// What [`sense`] begins with.
 pub const PUSHES: &str = "pushes the wall to the";
 
-/// Where what pushes one way pushes the wall: inertia points against the acceleration of the base.
-pub fn sense(signal: &Signal) -> Option<String> {
+/// Where what pushes one way pushes the wall, along its plane: inertia points against the acceleration of the base.
+fn sense(signal: &Signal) -> Option<String> {
     let acceleration = match signal {
         Signal::Tilt(tilt) => tilt.acceleration.si(),
         Signal::Pulse(pulse) => match pulse.shape {
@@ -191,7 +192,7 @@ pub fn sense(signal: &Signal) -> Option<String> {
         _ => return None,
     };
     let side = if acceleration > 0.0 { "left" } else { "right" };
-    Some(format!("{PUSHES} {side}"))
+    (acceleration != 0.0).then(|| format!("{PUSHES} {side}"))
 }
 
 /// A motion that is no record, with its numbers.

@@ -307,6 +307,7 @@ impl Totals {
         let scale = self.peak_input.max(initial.abs()).max(CANCELLING * self.peak_work);
         if scale == 0.0 { 0.0 } else { self.peak_residual / scale }
     }
+
     /// Takes the size of the base shear at `t` [N], with the tops at `top` [m]; `marked` is the one at [`Totals::base_shear_time`].
     #[inline]
     pub fn raise_base_shear(&mut self, marked: &mut f64, shear: f64, t: f64, top: f64) {

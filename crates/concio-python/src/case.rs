@@ -8,7 +8,7 @@ use clap::Parser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use concio::InputError;
 use concio::case::{self, CaseFile, Syntax, canonical_json};
-use concio::ground::coverage::odd_unit;
+use concio::ground::coverage::{is_of_peak, odd_unit};
 use concio::ground::signal::from_record;
 use concio::run::{prepare, prepare_moved};
 use concio::warning::{Warning, WarningKind};
@@ -119,8 +119,13 @@ impl Case {
             let mut prepared = prepared.map_err(|e| self.raised(wall_file::all(&self.file, e)))?;
             // Only here it is known in which unit the array was given; the last of the doubts tells that no file gives the motion.
             let as_given = base.filter(|record| !record.sized);
-            let odd = as_given.and_then(|record| odd_unit("motion.base: the unit of the record", &record.history));
-            let odd = odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text));
+            let unit = "motion.base: the unit of the record";
+            let doubted = |record: &&Record| odd_unit(unit, "its unit", &record.history);
+            let odd = as_given.and_then(|record| Some((doubted(&record)?, record)));
+            if let Some((_, record)) = odd {
+                prepared.model.warnings.retain(|w| !is_of_peak(w, &record.history));
+            }
+            let odd = odd.map(|(text, _)| Warning::new(WarningKind::UnlikelyRecord, text));
             let last = prepared.model.warnings.len().saturating_sub(1);
             prepared.model.warnings.splice(last..last, odd);
             let warnings = prepared.model.warnings.iter();

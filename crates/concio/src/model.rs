@@ -393,7 +393,7 @@ fn under_beam(wall: &Wall, panel: usize) -> Option<String> {
 }
 
 /// Height over thickness from which no wall stands, floors or not: three storeys of half a brick have 75.
-const SLENDEREST: f64 = 70.0;
+const SLENDEREST: f64 = 100.0;
 
 /// Says of a panel that it is higher than any wall of its thickness.
 fn slender(wall: &Wall, panel: usize) -> Option<String> {
@@ -401,7 +401,7 @@ fn slender(wall: &Wall, panel: usize) -> Option<String> {
     let [height, thickness] = blocks().fold([0.0, f64::INFINITY], |[h, t], b| [b.y[1].max(h), b.thickness.min(t)]);
     (height > SLENDEREST * thickness).then(|| {
         format!(
-            "panel[{panel}].brick.thickness is {} m, and the panel {} m high, {:.0} times as much: walls have up to 40; look at thickness, \
+            "panel[{panel}].brick.thickness is {} m, and the panel {} m high, {:.0} times as much, more than {SLENDEREST}; look at thickness, \
              `brick.height` and `courses`",
             plausible::rounded(thickness, 4),
             plausible::rounded(height, 4),

@@ -49,7 +49,7 @@ kinds! {
     DetachedTie = "detached-tie",
     /// A record of which no channel was chosen.
     UnchosenChannel = "unchosen-channel",
-    /// A record, or another motion or force, that the run cuts.
+    /// A record, or another motion or force, that the run cuts, or a record that `trim`, `baseline` or `resample` weakens.
     RecordCut = "record-cut",
     /// A record that ends before the run.
     RecordOutlasted = "record-outlasted",

@@ -76,10 +76,9 @@ fn notes(args: &Record, channels: &[History], place: usize) {
     for remark in &history.remarks {
         files::note(&format!("note: {remark}"));
     }
-    let what = if args.units.is_some() { "--units" } else { "the unit in the file" };
+    let [what, remedy] = if args.units.is_some() { ["--units"; 2] } else { ["the unit in the file", "its unit"] };
     let odd = [
-        coverage::odd_unit(what, history),
-        coverage::odd_peak(history),
+        coverage::odd_unit(what, remedy, history).or_else(|| coverage::odd_peak(history)),
         coverage::rare_peak(history),
         coverage::odd_interval(history),
         coverage::odd_length(history),

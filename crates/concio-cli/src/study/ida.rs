@@ -243,15 +243,23 @@ fn alone(analysis: &Analysis, limit: &str) -> Option<String> {
     let ([curve], Some((_, value))) = (&curves[..], settings.limits.iter().find(|(name, _)| name == limit)) else {
         return None;
     };
-    let unit = settings.intensity.unit();
-    let capacity = match curve.capacity(*value) {
-        Evidence::At(at) => format!("at {} {unit}", shown(at)),
-        Evidence::Within([from, to]) => format!("between {} and {} {unit}", shown(from), shown(to)),
-        Evidence::Above(from) => format!("above {} {unit}", shown(from)),
-        Evidence::Below(to) => format!("below {} {unit}", shown(to)),
+    let capacity = told_alone(curve.capacity(*value), settings.intensity.unit())?;
+    Some(format!("{capacity}; a fragility is fitted to two or more"))
+}
+
+/// The capacity of one curve; none of stripes.
+fn told_alone(capacity: Evidence, unit: &str) -> Option<String> {
+    Some(match capacity {
+        Evidence::At(at) => format!("reached at {} {unit} by the one curve", shown(at)),
+        Evidence::Within([from, to]) => {
+            format!("reached between {} and {} {unit} by the one curve", shown(from), shown(to))
+        }
+        Evidence::Above(from) => format!("not reached up to {} {unit} by the one curve", shown(from)),
+        Evidence::Below(to) => {
+            format!("reached at {} {unit} already, the lowest that was run, by the one curve", shown(to))
+        }
         Evidence::Stripe { .. } => return None,
-    };
-    Some(format!("reached {capacity} by the one curve; a fragility is fitted to two or more"))
+    })
 }
 
 /// A fit in a line.
@@ -539,5 +547,19 @@ mod tests {
         assert_eq!(points(&evidence), [(0.2, 0.25), (0.5, 0.625), (0.9, 1.0)]);
         let stripe = [Evidence::Stripe { intensity: 0.4, reached: 1, of: 4 }];
         assert_eq!(points(&stripe), [(0.4, 0.25)]);
+    }
+
+    /// A curve that ends below its limit, and one that begins above it.
+    #[test]
+    fn what_one_curve_found_is_told_as_it_is() {
+        for (capacity, told) in [
+            (Evidence::At(2.5), "reached at 2.500 m/s² by the one curve"),
+            (Evidence::Within([2.0, 3.0]), "reached between 2 and 3 m/s² by the one curve"),
+            (Evidence::Above(4.0), "not reached up to 4 m/s² by the one curve"),
+            (Evidence::Below(1.0), "reached at 1 m/s² already, the lowest that was run, by the one curve"),
+        ] {
+            assert_eq!(told_alone(capacity, "m/s²").as_deref(), Some(told));
+        }
+        assert_eq!(told_alone(Evidence::Stripe { intensity: 0.4, reached: 1, of: 4 }, "m/s²"), None);
     }
 }

@@ -160,6 +160,13 @@ fn a_record_whose_header_names_the_wrong_unit_is_told() {
         "{strong}"
     );
     assert_eq!([warned("m/s2", 3.4323), warned("g", 0.35)], ["", ""]);
+    // Told once, and with the option that gave it.
+    let weak = warned("cm/s2", 0.8);
+    assert!(weak.contains("hardly moves a wall") && !weak.contains("less than 0.01 m/s²"), "{weak}");
+    let rows: String = (0..200).map(|k| format!("{}\n", 3.4323 * (0.3 * f64::from(k)).sin())).collect();
+    desk.put("bare.txt", rows);
+    let [_, said] = told(desk.concio("record bare.txt --dt 0.01 --units gal"), 0);
+    assert!(said.contains("Then --units is \"m/s2\""), "{said}");
 }
 
 /// An offset drifts because it pushes: that is said, not that a filter hardly touches the acceleration.

@@ -40,6 +40,15 @@ fn refused(desk: &Desk, line: &str) -> String {
     String::from_utf8_lossy(&done.get_output().stderr).into_owned()
 }
 
+/// What pushes it pushes it out of its plane, not to the left or right.
+#[test]
+fn a_push_out_of_the_plane_has_no_side() {
+    let desk = Desk::new();
+    desk.put("wall.toml", WALL.replace("one-sine", "half-sine"));
+    let told = text(&desk, "check wall.toml");
+    assert!(told.contains("half-sine pulse") && !told.contains("pushes the wall to"), "{told}");
+}
+
 /// The starter is a wall whose run is the time history of `concio mechanisms`, in the files of other runs.
 #[test]
 fn the_starter_rocks_as_its_mechanism_does() {

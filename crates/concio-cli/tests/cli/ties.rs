@@ -74,6 +74,51 @@ fn check_tells_rods_and_joints() {
     assert!(String::from_utf8_lossy(&said).contains("pushes the wall to the left\n"));
 }
 
+/// A stone alone, two stones side by side, and what makes a push to one side another than one to the other.
+#[test]
+fn check_says_whether_the_other_sign_is_another_push() {
+    let desk = Desk::new();
+    let (head, rest) = WALL.split_once("[[tie]]").expect("a tie");
+    let (_, motion) = rest.split_once("[motion]").expect("a motion");
+    // Forces act on walls with inertia.
+    let motion = motion.replace("quasi_static = true\n", "");
+    let pushed = |head: &str, more: &str| {
+        desk.put("wall.toml", format!("{head}{more}\n[motion]{motion}"));
+        let said = desk.concio("check wall.toml").assert().success().get_output().stdout.clone();
+        let said = String::from_utf8_lossy(&said).into_owned();
+        said.lines().find_map(|line| Some(line.split_once("pushes the wall to the right")?.1.to_string()))
+    };
+    let (same, other) = (Some(String::new()), Some("; it is not symmetric: run the other sign too".to_string()));
+    let panel = |weight: f64, thickness: f64| {
+        format!(
+            "[[panel]]\nbond = \"stack\"\ncourses = 1\nbricks = 1\nmortar = {{ bed = 0, head = 0 }}\n\
+             brick = {{ length = 1, height = 0.25, thickness = {thickness}, specific_weight = {weight} }}\n"
+        )
+    };
+    let two = |weight: f64, thickness: f64| {
+        let joints = head.split_once("[joint]").expect("joints").1;
+        format!(
+            "model = \"planar\"\n{}{}[joint]{joints}",
+            panel(20e3, 1.0),
+            panel(weight, thickness) + "connection = 0.01\n"
+        )
+    };
+    assert_eq!(pushed(head, ""), same);
+    assert_eq!(pushed(head, "[[force]]\nblock = \"stone\"\nx = [100]"), other);
+    assert_eq!(
+        [pushed(&two(20e3, 1.0), ""), pushed(&two(21e3, 1.0), ""), pushed(&two(20e3, 0.9), "")],
+        [same.clone(), other.clone(), other.clone()]
+    );
+    let changed = |at: &str| pushed(head, &format!("[[joint.change]]\nat = {{ {at} }}\nfriction = {{ static = 0.5 }}"));
+    assert_eq!(
+        [changed("region = [0, -1, 0.6, 1]"), changed("kind = [\"base\"]"), changed("region = [-9, -9, 9, 9]")],
+        [other, same.clone(), same]
+    );
+    desk.put("wall.toml", WALL.replace("\"-0.7 g\"", "0"));
+    let said = desk.concio("check wall.toml").assert().success().get_output().stdout.clone();
+    assert!(!String::from_utf8_lossy(&said).contains("pushes the wall"));
+}
+
 #[test]
 fn limit_analysis_says_that_it_leaves_rods_out() {
     let desk = Desk::new();

@@ -278,7 +278,10 @@ fn a_factor_that_an_analysis_chose_is_not_asked_about() {
     desk.put("a.txt", lines);
     let [found, told] = said(&desk, "study run study.toml --out out");
     // A single curve determines no fragility; what it found is told.
-    holds(&found, &["L (capacities): reached ", " m/s² by the one curve; a fragility is fitted to two or more"]);
+    holds(
+        &found,
+        &["L (capacities): not reached up to 9.810 m/s² by the one curve; a fragility is fitted to two or more"],
+    );
     assert!(!told.contains("conversion to or from g"), "{told}");
     assert!(desk.get("out/ida.csv").contains("9.8"), "{}", desk.get("out/ida.csv"));
     // Tables of another question are told of and stay.

@@ -659,6 +659,8 @@ fn raised(v: f64) -> f64 {
 const PROPORTIONS: [(&str, [f64; 2]); 2] = [("height", [0.05, 50.0]), ("thickness", [0.06, 4.0])];
 /// Height over length of bricks side by side: posts and blocks that rock stand alone.
 const UPRIGHT: f64 = 2.0;
+/// Height of the flattest courses [m]: a brick that stands on end is no slip where a tenth of its height is less.
+const FLATTEST: f64 = 0.045;
 
 /// Sides that are likely by themselves, and not beside each other. Façades are thicker than their bricks are long.
 fn of_proportions(doubts: &mut Doubts, at: &str, panel: &Panel, facade: bool) {
@@ -667,7 +669,8 @@ fn of_proportions(doubts: &mut Doubts, at: &str, panel: &Panel, facade: bool) {
     let length = brick.length.si();
     let bonded = panel.courses.is_some_and(|n| n > 1) && panel.bricks.is_some_and(|n| n > 1);
     for ((key, [least, most]), side) in PROPORTIONS.into_iter().zip([brick.height.si(), brick.thickness.si()]) {
-        let most = if key == "height" && bonded { UPRIGHT } else { most };
+        let slip = 0.1 * side >= FLATTEST;
+        let most = if key == "height" && bonded && slip { UPRIGHT } else { most };
         // A wall may be given by the metre of its depth.
         let most = if facade || side == 1.0 { f64::INFINITY } else { most };
         if known(length) && known(side) && !(least..=most).contains(&(side / length)) {
@@ -691,31 +694,19 @@ const STONES: [f64; 2] = [0.1, 8.0];
 /// How near a length that is guessed brings the end of its course to those beside it, over the length of the reference brick.
 const FITS: f64 = 0.25;
 
+/// Part of the courses that may end apart; more of them are a pattern, such as quoins and toothing.
+const PATTERN: f64 = 0.25;
+
 /// Courses that end where those beside them do not, and stones of another size than all others: slips in what was measured.
 fn of_courses(doubts: &mut Doubts, at: &str, panel: &Panel) {
     let brick = panel.brick.length.si();
-    let ends: Vec<[f64; 2]> = panel.course_list.iter().map(|course| course.ends(panel.mortar.head)).collect();
-    for (c, course) in panel.course_list.iter().enumerate() {
-        let key = format!("{at}.course[{c}]");
-        if let Some(beside) = apart(&ends, c, BESIDE * brick) {
-            let from_to = |k: usize| {
-                let [from, to] = ends[k].map(|x| shown(rounded(x, 6)));
-                format!("from {from} to {to} m")
-            };
-            let others: Vec<String> = beside.iter().map(|&k| format!("course[{k}] {}", from_to(k))).collect();
-            let meant = slipped(course, ends[c][1] - ends[beside[0]][1], FITS * brick);
-            let meant = meant.map_or("look at its `bricks` and `offset`".into(), |(b, length)| {
-                format!("did you mean bricks[{b}] = \"{} mm\"?", shown(rounded(1e3 * length, 6)))
-            });
-            let text = format!(
-                "{key} goes {}, and beside it {}: they end more than half a brick of {} m apart; {meant}",
-                from_to(c),
-                others.join(" and "),
-                shown(brick)
-            );
-            doubts.add(WarningKind::UnlikelyNumber, text);
-            continue;
-        }
+    let odd = odd_courses(panel);
+    if let Some(first) = odd.first().filter(|_| odd.len() as f64 <= (PATTERN * panel.course_list.len() as f64).max(1.0))
+    {
+        doubts.add(WarningKind::UnlikelyNumber, first.told(at, brick, odd.len()));
+    }
+    let courses = panel.course_list.iter().enumerate().filter(|(c, _)| odd.iter().all(|odd| odd.course != *c));
+    for (c, course) in courses {
         let lengths = course.bricks.iter().map(|length| length.si()).enumerate();
         for (b, length) in lengths.filter(|(_, length)| (BRICK.limits[0]..=BRICK.limits[1]).contains(length)) {
             let [least, most] = STONES;
@@ -724,7 +715,7 @@ fn of_courses(doubts: &mut Doubts, at: &str, panel: &Panel) {
                 let bound = if part < least { format!("at least {least}") } else { format!("at most {most}") };
                 let [part, length, brick] = [rounded(part, 2), length, brick].map(|v| shown(rounded(v, 6)));
                 let text = format!(
-                    "{key}.bricks[{b}] is {length} m, {part} times the panel's brick of {brick} m: stones have {bound}; look at both"
+                    "{at}.course[{c}].bricks[{b}] is {length} m, {part} times the panel's brick of {brick} m: stones have {bound}; look at both"
                 );
                 doubts.add(WarningKind::UnlikelyNumber, text);
             }
@@ -732,11 +723,57 @@ fn of_courses(doubts: &mut Doubts, at: &str, panel: &Panel) {
     }
 }
 
+/// A course that ends apart from those beside it.
+struct OddCourse {
+    course: usize,
+    /// Those beside it.
+    beside: Vec<usize>,
+    /// Ends of it and of those [m].
+    ends: Vec<[f64; 2]>,
+    /// The brick that makes it so, and its length then [m].
+    meant: Option<(usize, f64)>,
+}
+
+impl OddCourse {
+    /// `count`: how many such courses the panel has.
+    fn told(&self, at: &str, brick: f64, count: usize) -> String {
+        let from_to = |[from, to]: [f64; 2]| format!("from {} to {} m", shown(rounded(from, 6)), shown(rounded(to, 6)));
+        let others = self.beside.iter().zip(&self.ends[1..]);
+        let others: Vec<String> = others.map(|(k, ends)| format!("course[{k}] {}", from_to(*ends))).collect();
+        let meant = self.meant.map_or("look at its `bricks` and `offset`".into(), |(b, length)| {
+            format!("did you mean bricks[{b}] = \"{} mm\"?", shown(rounded(1e3 * length, 6)))
+        });
+        let more = if count > 1 { format!(" ({count} courses of this panel do so)") } else { String::new() };
+        format!(
+            "{at}.course[{}] goes {}, and beside it {}: they end more than half a brick of {} m apart{more}; {meant}",
+            self.course,
+            from_to(self.ends[0]),
+            others.join(" and "),
+            shown(brick)
+        )
+    }
+}
+
+/// Courses that end apart from those beside them. A wall may end ruined, on a footing or with a step: the first and the last course, and those of
+/// two, count only where one brick explains it.
+fn odd_courses(panel: &Panel) -> Vec<OddCourse> {
+    let brick = panel.brick.length.si();
+    let ends: Vec<[f64; 2]> = panel.course_list.iter().map(|course| course.ends(panel.mortar.head)).collect();
+    let odd = |(c, course): (usize, &Course)| {
+        let beside = apart(&ends, c, BESIDE * brick)?;
+        let meant = slipped(course, ends[c][1] - ends[beside[0]][1], brick);
+        let inner = c > 0 && c + 1 < ends.len();
+        let ends = std::iter::once(&c).chain(&beside).map(|&k| ends[k]).collect();
+        (inner || meant.is_some()).then_some(OddCourse { course: c, beside, ends, meant })
+    };
+    panel.course_list.iter().enumerate().filter_map(odd).collect()
+}
+
 /// The courses beside one that end together, where it ends more than `far` [m] from both: gables and steps go on from course to course.
 fn apart(ends: &[[f64; 2]], course: usize, far: f64) -> Option<Vec<usize>> {
     let beside = match (course, ends.len()) {
-        (0, 0..=2) | (_, 0..=1) => return None,
-        (1, 2) => vec![0],
+        (_, 0..=1) => return None,
+        (k, 2) => vec![1 - k],
         (0, _) => vec![1, 2],
         (k, n) if k + 1 == n => vec![n - 2, n - 3],
         (k, _) => vec![k - 1, k + 1],
@@ -753,13 +790,16 @@ fn apart(ends: &[[f64; 2]], course: usize, far: f64) -> Option<Vec<usize>> {
     ((odd[0] || odd[1]) && !meant && together(0) && together(1)).then_some(beside)
 }
 
-/// The brick of a course whose length, with its point moved, takes away that the course is too long by `excess` [m]; its length then [m].
-fn slipped(course: &Course, excess: f64, near: f64) -> Option<(usize, f64)> {
+/// The brick of a course whose length, with its point moved, takes away that the course is too long by `excess` [m], and is nearer to that of the
+/// reference brick of `brick` [m] then; its length then [m].
+fn slipped(course: &Course, excess: f64, brick: f64) -> Option<(usize, f64)> {
     let factors = [0.1, 10.0, 1e-2, 1e2, 1e-3, 1e3];
     let lengths = course.bricks.iter().map(|length| length.si()).enumerate();
     let moved = lengths.flat_map(|(b, length)| factors.map(|factor| (b, length, factor * length)));
+    let odd = |length: f64| (length / brick).ln().abs();
+    let moved = moved.filter(|(_, length, meant)| excess.abs() > BESIDE * brick && odd(*meant) < odd(*length));
     let left = |&(_, length, meant): &(usize, f64, f64)| (excess - (length - meant)).abs();
-    let best = moved.min_by(|a, b| left(a).total_cmp(&left(b))).filter(|found| left(found) <= near)?;
+    let best = moved.min_by(|a, b| left(a).total_cmp(&left(b))).filter(|found| left(found) <= FITS * brick)?;
     Some((best.0, best.2))
 }
 

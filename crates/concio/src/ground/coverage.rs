@@ -7,6 +7,7 @@ use crate::case::plausible::rounded;
 use crate::case::{Baseline, Beam, BlockForce, Case, HistoryQuantity, ModelKind, RecordInput, Signal};
 use crate::error::Result;
 use crate::ground::library::Component;
+use crate::ground::process::Peaks;
 use crate::ground::record::{Format, Record};
 use crate::ground::signal::{GroundMotion, compile_with};
 use crate::ground::{Library, STANDARD_GRAVITY, channel, measure, units};
@@ -27,11 +28,23 @@ const SMALLEST_DRIFT: f64 = 0.01;
 /// Peak accelerations of records beyond which units are doubted [m/s²].
 const SMALLEST_PEAK: f64 = 0.01;
 const LARGEST_PEAK: f64 = 60.0;
-/// Peak of nearly all records, 2 g [m/s²].
-const STRONGEST: f64 = 2.0 * STANDARD_GRAVITY;
-/// The same of a motion whose peak the wall file names, in the g of wall files: the largest that were recorded have 3 to 4 g.
-const NAMED: f64 = 3.0 * G * (1.0 + ROUNDING);
+/// Peak of nearly all records [g].
+const STRONGEST: f64 = 2.0;
+/// The same of a motion whose peak the wall file names: the largest that were recorded have 3 to 4 g.
+const NAMED: f64 = 3.0;
 const ROUNDING: f64 = 1e-9;
+
+/// A peak above which one is told, in the g in which it was named: a limit is not told of itself.
+#[derive(Debug, Clone, Copy)]
+struct Most {
+    /// In `gravity`.
+    peak: f64,
+    /// That of records, or that of wall files [m/s²].
+    gravity: f64,
+}
+
+/// Of motions whose peak nothing names.
+const FOUND: Most = Most { peak: STRONGEST, gravity: STANDARD_GRAVITY };
 /// Below this peak hardly a wall moves [m/s²].
 const WEAK: f64 = 0.05 * STANDARD_GRAVITY;
 /// Difference from g of a factor that is meant to be g: 9.8, 9.80665, 9.81.
@@ -78,7 +91,17 @@ pub fn coverage(record: &Record, duration: f64) -> Coverage {
 pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) -> Result<Vec<Warning>> {
     let driven = case.load.beam == Beam::Driven;
     let mut found = Vec::new();
-    for (name, signal) in case.motion.signals().into_iter().filter(|(name, _)| *name != "top" || driven) {
+    let signals = || case.motion.signals().into_iter().filter(|(name, _)| *name != "top" || driven);
+    // Of two components one may be weak.
+    let mut hardly_moves = true;
+    for (_, signal) in signals() {
+        hardly_moves &= match signal {
+            Signal::Record(input) => library.record(input, folder)?.largest() < WEAK,
+            Signal::Synthetic(input) => input.pga.si() < WEAK,
+            _ => true,
+        };
+    }
+    for (name, signal) in signals() {
         match signal {
             Signal::Record(input) => {
                 found.extend(
@@ -86,19 +109,22 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
                 );
                 let record = library.record(input, folder)?;
                 let scale = of_gravity(name, input, &record).map(|text| Warning::new(WarningKind::ScaledByG, text));
-                let unit = || in_gravity(name, input, &record).map(|t| Warning::new(WarningKind::UnlikelyRecord, t));
-                found.extend(scale.or_else(unit));
-                let [raw, left] = library.peaks(input, folder)?;
-                let weakened = weakened(name, input, raw, left);
-                found.extend(weakened.map(|text| Warning::new(WarningKind::RecordCut, text)));
+                let unit = in_gravity(name, input, &record).filter(|_| scale.is_none() && hardly_moves);
+                let told_twice = |w: &Warning| unit.is_some() && is_of_peak(w, &record);
+                let doubted = unit.as_ref().map(|t| Warning::new(WarningKind::UnlikelyRecord, t.clone()));
+                found.extend(scale.or(doubted));
+                if record.displacement.is_none() {
+                    let weakened = weakened(name, input, &library.peaks(input, folder)?);
+                    found.extend(weakened.into_iter().map(|text| Warning::new(WarningKind::RecordCut, text)));
+                }
                 let meant = input.pga.is_some();
-                found.extend(of_record(case, name, &record, meant, duration));
+                found.extend(of_record(case, name, &record, meant, duration).into_iter().filter(|w| !told_twice(w)));
             }
             Signal::Synthetic(input) => {
                 let made = library.synthetic(input)?;
                 found.extend(uncovered(place(name), "accelerogram", &made, duration));
                 let key = format!("motion.{name}");
-                found.extend(beyond(&key, largest(&made), most(case, true), SCALES));
+                found.extend(beyond(&key, made.largest(), most(case, true), SCALES));
             }
             other => found
                 .extend(cut(name, other, duration, library, folder)?.map(|t| Warning::new(WarningKind::RecordCut, t))),
@@ -128,12 +154,12 @@ pub fn of_own(case: &Case, base: &GroundMotion, duration: f64) -> Vec<Warning> {
 pub fn of_option(option: &str, record: &Record) -> Vec<Warning> {
     let place = if option == "--vertical" { "vertical direction" } else { "base" };
     let named = Named { key: option, place, units: "--units", scales: "--scale and --pga", file: " of a wall file" };
-    [named.remarks(record), named.numbers(record, STRONGEST)].concat()
+    [named.remarks(record), named.numbers(record, FOUND)].concat()
 }
 
 /// Says that a motion without samples multiplied by `--scale` has a peak [m/s²] that hardly an earthquake had.
 pub fn of_scaled(peak: f64) -> Option<Warning> {
-    beyond("--scale", peak, STRONGEST, "and --scale")
+    beyond("--scale", peak, FOUND, "and --scale")
 }
 
 /// What a signal moves, in words.
@@ -161,14 +187,14 @@ impl Named<'_> {
         doubtful.map(|text| Warning::new(WarningKind::DoubtfulRecord, text)).collect()
     }
 
-    /// What its samples do; a peak above `most` [m/s²] is told.
-    fn numbers(&self, record: &Record, most: f64) -> Vec<Warning> {
+    /// What its samples do; a peak above `most` is told.
+    fn numbers(&self, record: &Record, most: Most) -> Vec<Warning> {
         let Named { key, place, units, scales, file } = self;
         let drift = drifting(place, file, record).map(|text| Warning::new(WarningKind::Drift, text));
         let peak = odd_peak(record).map(|odd| format!("{key}: {odd} as it moves the wall: look at {units}, {scales}"));
         let interval = odd_interval(record).map(|odd| format!("{key}: {odd}"));
         let length = odd_length(record).map(|odd| format!("{key}: {odd}"));
-        let rare = if peak.is_none() { beyond(key, largest(record), most, scales) } else { None };
+        let rare = if peak.is_none() { beyond(key, record.largest(), most, scales) } else { None };
         let odd = peak.into_iter().chain(interval).chain(length);
         drift.into_iter().chain(rare).chain(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text))).collect()
     }
@@ -182,9 +208,13 @@ fn of_record(case: &Case, name: &str, record: &Record, meant: bool, duration: f6
     [named.remarks(record), covered.into_iter().collect(), named.numbers(record, most(case, meant))].concat()
 }
 
-/// Peak [m/s²] above which it is told: where the wall file names it more is meant, but of rocking walls, which it throws over.
-fn most(case: &Case, meant: bool) -> f64 {
-    if case.model == ModelKind::Rocking || !meant { STRONGEST } else { NAMED }
+/// Where the wall file names a peak more is meant, but of rocking walls, which it throws over.
+fn most(case: &Case, meant: bool) -> Most {
+    match (meant, case.model) {
+        (false, _) => FOUND,
+        (true, ModelKind::Rocking) => Most { peak: STRONGEST, gravity: G },
+        (true, _) => Most { peak: NAMED, gravity: G },
+    }
 }
 
 /// Says which component is taken where none is chosen of several, and whether one of the other direction is taken.
@@ -258,7 +288,7 @@ pub fn offset(record: &Record) -> Option<String> {
 
 /// Says of a peak that no earthquake has, or that no wall feels, that it is: it comes from units, or from a file of zeros.
 pub fn odd_peak(record: &Record) -> Option<String> {
-    let peak = largest(record);
+    let peak = record.largest();
     let (how, bound) = if peak > LARGEST_PEAK { ("more", LARGEST_PEAK) } else { ("less", SMALLEST_PEAK) };
     if peak == 0.0 {
         return Some("the record is 0 from end to end".into());
@@ -269,20 +299,20 @@ pub fn odd_peak(record: &Record) -> Option<String> {
 
 /// Says of a record, as its file has it, that its peak is above 2 g.
 pub fn rare_peak(record: &Record) -> Option<String> {
-    let peak = largest(record);
-    (peak > STRONGEST && peak <= LARGEST_PEAK).then(|| {
-        let peak = shown(rounded(peak / STANDARD_GRAVITY, 3));
+    let peak = record.largest();
+    let in_g = peak / STANDARD_GRAVITY;
+    (in_g > STRONGEST && peak <= LARGEST_PEAK).then(|| {
+        let peak = shown(rounded(in_g, 3));
         format!("the record's peak acceleration is {peak} g, more than 2 g, which few records have: look at its unit")
     })
 }
 
 /// Says of a peak [m/s²] above `most` that hardly an earthquake had that it is one.
-fn beyond(key: &str, peak: f64, most: f64, scales: &str) -> Option<Warning> {
-    (peak > most).then(|| {
-        let g = if most == NAMED { G } else { STANDARD_GRAVITY };
-        let most = rounded(most / g, 3);
+fn beyond(key: &str, peak: f64, Most { peak: most, gravity }: Most, scales: &str) -> Option<Warning> {
+    let peak = peak / gravity;
+    (peak > most * (1.0 + ROUNDING)).then(|| {
         // As many digits as tell it from the limit.
-        let peak = (3..9).map(|digits| rounded(peak / g, digits)).find(|peak| *peak > most).unwrap_or(most);
+        let peak = (3..9).map(|digits| rounded(peak, digits)).find(|peak| *peak > most).unwrap_or(most);
         let [peak, most] = [peak, most].map(shown);
         let text = format!(
             "{key}: its peak acceleration is {peak} g as it moves the wall, more than {most} g, which few records have: look at its unit, its interval, {scales}"
@@ -291,43 +321,42 @@ fn beyond(key: &str, peak: f64, most: f64, scales: &str) -> Option<Warning> {
     })
 }
 
-/// Largest magnitude of an acceleration [m/s²].
-fn largest(record: &Record) -> f64 {
-    record.acceleration.iter().fold(0.0, |most, a| most.max(a.abs()))
-}
-
 /// Says of a record of text, as its file has it, that hardly moves a wall in the unit that the file or `units` gives, that its numbers may be in another.
-/// `what` is the key or file that gives it.
-pub fn odd_unit(what: &str, record: &Record) -> Option<String> {
+/// `what` gives it, and `remedy` is what to change.
+pub fn odd_unit(what: &str, remedy: &str, record: &Record) -> Option<String> {
     let text = record.format == Format::Text && record.displacement.is_none();
     let unit = Some(&record.units).filter(|_| text)?;
-    let peak = largest(record);
+    let peak = record.largest();
     // The largest number of the file.
     let number = peak / units::factor(unit, HistoryQuantity::Acceleration)?;
-    let shakes = |(_, factor): &(&str, f64)| (WEAK..STRONGEST).contains(&(number * factor));
+    let shakes = |(_, factor): &(&str, f64)| (WEAK..STRONGEST * STANDARD_GRAVITY).contains(&(number * factor));
     let meant: Vec<_> = [("g", STANDARD_GRAVITY), ("m/s2", 1.0)].into_iter().filter(shakes).collect();
     (peak < WEAK && !meant.is_empty()).then(|| {
         let in_g = |a: f64| shown(rounded(a / STANDARD_GRAVITY, 3));
         let asked: Vec<String> = meant.iter().map(|(_, factor)| format!("{} g", in_g(number * factor))).collect();
         let units: Vec<String> = meant.iter().map(|(unit, _)| format!("\"{unit}\"")).collect();
         format!(
-            "{what} is {unit:?}, in which the record's peak acceleration is {} g: it hardly moves a wall. Is it {}? Then {} is {}",
+            "{what} is {unit:?}, in which the record's peak acceleration is {} g: it hardly moves a wall. Is it {}? Then {remedy} is {}",
             in_g(peak),
             asked.join(", or "),
-            if what.ends_with("units") { "`units`" } else { "its unit" },
             units.join(", or ")
         )
     })
 }
 
+/// Whether a warning is that of a peak that no wall feels, which [`odd_unit`] tells with its reason.
+pub fn is_of_peak(warning: &Warning, record: &Record) -> bool {
+    warning.kind == WarningKind::UnlikelyRecord && odd_peak(record).is_some_and(|odd| warning.contains(&odd))
+}
+
 /// [`odd_unit`] of a record that a wall file takes as it is.
 fn in_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String> {
-    let what = match input.units {
-        Some(_) => format!("motion.{name}.units"),
-        None => format!("motion.{name}.record: the unit in the file"),
+    let (what, remedy) = match input.units {
+        Some(_) => (format!("motion.{name}.units"), "`units`"),
+        None => (format!("motion.{name}.record: the unit in the file"), "its unit"),
     };
     let as_given = input.scale.is_none() && input.pga.is_none();
-    if as_given { odd_unit(&what, record) } else { None }
+    if as_given { odd_unit(&what, remedy, record) } else { None }
 }
 
 /// Part of its peak that a record keeps as it is trimmed and filtered, below which it is told.
@@ -335,30 +364,29 @@ const KEPT: f64 = 0.6;
 /// The same where it is resampled, which takes no more than rounding of what shakes a wall.
 const SAMPLED: f64 = 0.85;
 
-/// Says of a record that what was done to it took away its strongest part; `raw` is its peak before [m/s²].
-fn weakened(name: &str, input: &RecordInput, raw: f64, left: f64) -> Option<String> {
-    let done = [
-        ("trim", input.trim.is_some()),
-        ("baseline", input.baseline != Baseline::None),
-        ("resample", input.resample.is_some()),
+/// Says of an acceleration which of the steps that prepare it took away its strongest part.
+fn weakened(name: &str, input: &RecordInput, peaks: &Peaks) -> Vec<String> {
+    let steps = [
+        ("trim", input.trim.is_some(), peaks.trim, KEPT),
+        ("baseline", input.baseline != Baseline::None, peaks.baseline, KEPT),
+        ("resample", input.resample.is_some(), peaks.resample, SAMPLED),
     ];
-    let keys: Vec<&str> = done.into_iter().filter(|(_, done)| *done).map(|(key, _)| key).collect();
-    let least = if input.resample.is_some() { SAMPLED } else { KEPT };
-    (left < least * raw && !keys.is_empty()).then(|| {
-        let [before, after] = [raw, left].map(|a| shown(rounded(a / STANDARD_GRAVITY, 3)));
-        let scaled = match input.pga {
-            Some(pga) if left > 0.0 => {
-                let factor = shown(rounded(pga.si() / left, 3));
-                format!(", and `pga` multiplies what is left by {factor}")
-            }
-            _ => String::new(),
-        };
-        let gone = if left < KEPT * raw { ": its strongest part is gone" } else { "" };
+    let [_, last] = peaks.resample;
+    let scaled = match input.pga {
+        Some(pga) if last > 0.0 => {
+            format!(", and `pga` multiplies what is left by {}", shown(rounded(pga.si() / last, 3)))
+        }
+        _ => String::new(),
+    };
+    let weak = steps.into_iter().filter(|(_, done, [before, after], least)| *done && *after < least * before);
+    let told = weak.map(|(key, _, [before, after], _)| {
+        let gone = if after < KEPT * before { ": its strongest part is gone" } else { "" };
+        let [before, after] = [before, after].map(|a| shown(rounded(a / STANDARD_GRAVITY, 3)));
         format!(
-            "motion.{name}.{}: of the record's peak acceleration of {before} g this leaves {after} g{gone}{scaled}",
-            keys.join(", ")
+            "motion.{name}.{key}: of the record's peak acceleration of {before} g this leaves {after} g{gone}{scaled}"
         )
-    })
+    });
+    told.collect()
 }
 
 /// Says of a factor that is g, or one over g, in a unit of acceleration: files and `units` say theirs, and g would count twice.
@@ -367,7 +395,7 @@ fn of_gravity(name: &str, input: &RecordInput, record: &Record) -> Option<String
     let near = |of: f64| (scale.abs() / of - 1.0).abs() < NEARLY_G;
     let is_g = [G, 100.0 * G, 1.0 / G, 0.01 / G].into_iter().any(near);
     is_g.then(|| {
-        let peak = largest(record) / STANDARD_GRAVITY;
+        let peak = record.largest() / STANDARD_GRAVITY;
         let [scale, peak, without] = [scale, peak, peak / scale.abs()].map(|v| shown(rounded(v, 3)));
         format!(
             "motion.{name}.scale is {scale}, a conversion to or from g, but records are converted by their own unit: the peak is {peak} g as it moves the wall, \
@@ -600,6 +628,19 @@ mod tests {
         assert_eq!(drifting("base", "", &back), None);
         there.displacement = Some(vec![0.0; 201]);
         assert_eq!(drifting("base", "", &there), None);
+    }
+
+    /// Wall files take 9.81 m/s² for g, records 9.80665 m/s².
+    #[test]
+    fn a_limit_that_a_wall_file_names_is_not_told_of_itself() {
+        let text = include_str!("../../../../examples/19-rocking-facade.toml");
+        let file = crate::case::from_str(text, crate::case::Syntax::Toml, None).expect("a wall file");
+        let told = |peak: f64, most: Most| beyond("motion.base", peak, most, SCALES).map(|w| w.text);
+        assert_eq!(told(2.0 * G, most(&file.case, true)), None);
+        assert_eq!(told(2.0 * STANDARD_GRAVITY, most(&file.case, false)), None);
+        let above = told(2.0001 * G, most(&file.case, true)).expect("a warning");
+        assert!(above.contains("is 2.0001 g as it moves the wall, more than 2 g"), "{above}");
+        assert!(told(2.0 * G, FOUND).is_some_and(|w| w.contains("more than 2 g")));
     }
 
     #[test]

@@ -9,6 +9,7 @@ use crate::Result;
 use crate::case::{RecordInput, Synthetic};
 use crate::files::{LARGEST_INPUT, Unread, read_input};
 use crate::ground::formats::{parse, unread};
+use crate::ground::process::Peaks;
 use crate::ground::record::{Record, TextOptions};
 use crate::ground::{channel, process, synthetic};
 use crate::quantity::Acceleration;
@@ -45,8 +46,7 @@ struct Shelved {
     /// The names of the components in its file, and the place of this one among them, from 0.
     channels: Vec<String>,
     place: usize,
-    /// Largest acceleration of it in its file [m/s²].
-    peak: f64,
+    peaks: Peaks,
 }
 
 /// What a file holds beside the component that is taken of it.
@@ -102,13 +102,12 @@ impl Library {
         Ok(Component { number: shelved.place + 1, names: shelved.channels.clone() })
     }
 
-    /// Largest accelerations of the record of `input`: as its file has it, and prepared but for its scale [m/s²].
+    /// Largest accelerations of the record of `input` from its file until it is prepared but for its scale.
     ///
     /// # Errors
     /// As [`Library::record`].
-    pub fn peaks(&self, input: &RecordInput, folder: &Path) -> Result<[f64; 2]> {
-        let shelved = self.of_file(input, folder)?;
-        Ok([shelved.peak, largest(&shelved.record)])
+    pub fn peaks(&self, input: &RecordInput, folder: &Path) -> Result<Peaks> {
+        Ok(self.of_file(input, folder)?.peaks)
     }
 
     /// The accelerogram of `input` ([`synthetic::generate`]).
@@ -121,7 +120,8 @@ impl Library {
         let shape = Synthetic { pga: Acceleration::from_si(1.0), ..*input };
         let key = Key::Synthetic(format!("{shape:?}"));
         let shelved = self.shelved(key, || {
-            Ok(Shelved { record: synthetic::generate(&shape)?, channels: Vec::new(), place: 0, peak: 1.0 })
+            let record = synthetic::generate(&shape)?;
+            Ok(Shelved { record, channels: Vec::new(), place: 0, peaks: Peaks::default() })
         })?;
         let mut record = shelved.record.clone();
         record.acceleration.iter_mut().for_each(|a| *a *= input.pga.si());
@@ -142,9 +142,8 @@ impl Library {
             })?;
             let channels = records.iter().map(|record| record.channel.clone()).collect();
             let mut record = records.swap_remove(place);
-            let peak = largest(&record);
-            process::correct(&mut record, input).map_err(|e| in_file(e, &path))?;
-            Ok(Shelved { record, channels, place, peak })
+            let peaks = process::correct(&mut record, input).map_err(|e| in_file(e, &path))?;
+            Ok(Shelved { record, channels, place, peaks })
         })
     }
 
@@ -163,10 +162,6 @@ impl Library {
         }
         Ok(made)
     }
-}
-
-fn largest(record: &Record) -> f64 {
-    record.acceleration.iter().fold(0.0, |most, a| most.max(a.abs()))
 }
 
 /// A thread that panicked left nothing half done: places are filled whole or not at all.

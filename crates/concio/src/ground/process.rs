@@ -37,19 +37,36 @@ pub fn prepare(record: Record, input: &RecordInput) -> Result<Record> {
     Ok(record)
 }
 
+/// Largest accelerations before and after each step that may lower it [m/s²].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Peaks {
+    /// `trim`.
+    pub trim: [f64; 2],
+    /// `baseline`: an offset is no shaking, so the mean does not count before it.
+    pub baseline: [f64; 2],
+    /// `resample`; the second is that of the prepared record but for its scale.
+    pub resample: [f64; 2],
+}
+
 /// [`prepare`] but for the scale.
-pub(super) fn correct(record: &mut Record, input: &RecordInput) -> Result<()> {
+pub(super) fn correct(record: &mut Record, input: &RecordInput) -> Result<Peaks> {
+    let raw = record.largest();
     if let Some([from, to]) = input.trim {
         trim(record, from.si(), to.si())?;
     }
     if input.reverse {
         reverse(record);
     }
+    let trimmed = record.largest();
+    let mean = record.acceleration.iter().sum::<f64>() / record.npts().max(1) as f64;
+    let shaking = record.acceleration.iter().fold(0.0, |most: f64, a| most.max((a - mean).abs()));
     correct_baseline(record, input.baseline)?;
+    let corrected = record.largest();
     if let Some(dt) = input.resample {
         resample(record, dt.si())?;
     }
-    Ok(())
+    let resample = [corrected, record.largest()];
+    Ok(Peaks { trim: [raw, trimmed], baseline: [shaking, corrected], resample })
 }
 
 /// The scale of [`prepare`].

@@ -130,6 +130,10 @@ impl Record {
         let offsets = self.remarks.iter().map(|remark| if let Remark::Offset { mean } = remark { *mean } else { 0.0 });
         offsets.sum()
     }
+    /// Largest magnitude of its acceleration [m/s²].
+    pub(crate) fn largest(&self) -> f64 {
+        self.acceleration.iter().fold(0.0, |most, a| most.max(a.abs()))
+    }
     /// Number of samples.
     pub fn npts(&self) -> usize {
         self.acceleration.len()

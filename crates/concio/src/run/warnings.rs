@@ -193,7 +193,7 @@ fn unbalanced(outcome: &Outcome, nothing: f64, remedy: &str) -> Option<String> {
         if let Some(until) = until.filter(|until| *until <= LARGE_RESIDUAL) {
             return format!(
                 "the energy account is off by {:.2} % of the largest work, but by {} % until the wall collapsed: what it bore until then holds, \
-                 energies and the way it fell do not",
+                 energies and the way it fell do not; end the run there, or {remedy}",
                 100.0 * residual,
                 shown(rounded(100.0 * until, 2))
             );
@@ -242,10 +242,13 @@ fn counted(outcome: &Outcome) -> Counted {
 fn unsolved(outcome: &Outcome) -> Option<String> {
     let Counted { steps, unsolved, until, .. } = counted(outcome);
     (unsolved as f64 > UNSOLVED * steps as f64).then(|| {
+        // Known of the whole run alone, and largest as blocks hit the ground.
+        let off = match until {
+            "" => format!("contact velocities are off by up to {:.1e} m/s; ", outcome.totals.contact_residual),
+            _ => String::new(),
+        };
         format!(
-            "the contact of {unsolved} of {steps} steps{until} was left unsolved: blocks may overlap and forces may be wrong there; contact velocities \
-             are off by up to {:.1e} m/s; lower solver.step",
-            outcome.totals.contact_residual
+            "the contact of {unsolved} of {steps} steps{until} was left unsolved: blocks may overlap and forces may be wrong there; {off}lower solver.step"
         )
     })
 }
@@ -764,7 +767,9 @@ step = "2 ms"
         let told = of(&model, &joints, &outcome);
         assert_eq!(told.len(), 2, "{told:?}");
         assert!(
-            told[0].contains("11 of 10000 steps") && told[1].contains("t = 0.2500 s on, when block m2 turned by 45°"),
+            told[0].contains("11 of 10000 steps")
+                && told[0].contains("contact velocities are off by up to")
+                && told[1].contains("t = 0.2500 s on, when block m2 turned by 45°"),
             "{told:?}"
         );
         // What went wrong as the wall lay down is no doubt about what it bore before.
@@ -778,11 +783,13 @@ step = "2 ms"
         let told = lay(before);
         assert!(
             told.len() == 2
-                && told[0].starts_with("the energy account is off by 1.00 % of the largest work, but by 0.001 % until the wall collapsed: what it bore until then holds"),
+                && told[0].starts_with("the energy account is off by 1.00 % of the largest work, but by 0.001 % until the wall collapsed: what it bore until then holds")
+                && told[0].contains("; end the run there, or lower solver."),
             "{told:?}"
         );
         assert!(lay(Before { residual: 2e-3, ..before })[0].contains("do not use the result"));
-        assert!(lay(Before { unsolved: 9, ..before })[1].contains("9 of 8000 steps until the wall collapsed"));
+        let late = &lay(Before { unsolved: 9, ..before })[1];
+        assert!(late.contains("9 of 8000 steps until the wall collapsed") && !late.contains("velocities"), "{late}");
         assert!(lay(Before { moving: 41, ..before })[1].starts_with("41 steps"));
     }
 

@@ -982,6 +982,10 @@ fn bricks_and_bonds_of_no_masonry_are_told() {
             "panel[0].brick.thickness is 1.2 m, 4.8 times the length of 0.25 m: bricks have at most 4; did you mean \"0.12 m\"?"
         ]
     );
+    // Hollow blocks of 250 mm on end, and soldiers.
+    for upright in ["length = 0.12, height = 0.25", "length = 0.065, height = 0.215"] {
+        assert_eq!(told("length = 0.25, height = 0.055", upright), [""; 0], "{upright}");
+    }
     // A Roman tile, and a wall as thick as four bricks.
     assert_eq!(told("length = 0.25, height = 0.055", "length = 0.59, height = 0.045"), [""; 0]);
     assert_eq!(told("thickness = 0.12", "thickness = 1.0"), [""; 0]);
@@ -1135,6 +1139,19 @@ fn slips_in_surveyed_courses_are_told() {
         assert!(found.len() == 1 && found[0].ends_with("look at its `bricks` and `offset`"), "{found:?}");
         assert!(found[0].starts_with("panel[0].course[1] goes") && found[0].contains(apart), "{found:?}");
     }
+    // The first of two, one of a whole centimetre too few, and two of eight with their number.
+    let found = told(&[("4.2, 0.26, 0.39", "0"), two]);
+    assert!(found.len() == 1 && found[0].ends_with("did you mean bricks[0] = \"420 mm\"?"), "{found:?}");
+    let found = told(&[one, two, three, ("0.42, 0.026, 0.39", "0")]);
+    assert!(found.len() == 1 && found[0].ends_with("did you mean bricks[1] = \"260 mm\"?"), "{found:?}");
+    let late = ("0.42, 0.26, 0.39", "-0.3");
+    let found = told(&[one, late, three, one, two, late, three, one]);
+    assert!(
+        found.len() == 1
+            && found[0].starts_with("panel[0].course[1] goes from -0.3 to")
+            && found[0].contains("apart (2 courses of this panel do so); look at"),
+        "{found:?}"
+    );
     // A chip in a course that ends right.
     assert_eq!(
         told(&[one, ("0.25, 0.31, 0.02, 0.475", "0"), three]),
@@ -1149,6 +1166,13 @@ fn slips_in_surveyed_courses_are_told() {
         // Steps, on one side and on both.
         vec![("0.3, 0.3, 0.3, 0.3", "0"), ("0.3, 0.3, 0.3", "0"), ("0.3, 0.3", "0")],
         vec![("0.3, 0.3, 0.3, 0.3, 0.3", "0"), ("0.3, 0.3, 0.3", "0.315"), ("0.3", "0.63")],
+        // Quoins long and short by more than half a brick, at one end.
+        vec![("0.3, 0.3, 0.3, 0.6", "0"), one, ("0.3, 0.3, 0.3, 0.6", "0"), one],
+        vec![one, ("0.3, 0.3, 0.3, 0.6", "0"), one, ("0.3, 0.3, 0.3, 0.6", "0"), one],
+        // A ruined top, a footing that is longer on one side, a second course stepped back.
+        vec![one, two, three, ("0.3, 0.4", "0")],
+        vec![("0.5, 0.5, 0.5, 0.5", "0"), one, two, three],
+        vec![one, ("0.3, 0.4", "0")],
         // A footing that is wider on both sides.
         vec![("0.5, 0.5, 0.5", "-0.2"), one, two, one],
     ] {
@@ -1164,10 +1188,12 @@ fn walls_higher_than_any_of_their_thickness_are_told() {
     assert_eq!(
         told("800"),
         [
-            "panel[0].brick.thickness is 0.12 m, and the panel 52 m high, 433 times as much: walls have up to 40; look at thickness, `brick.height` and `courses`"
+            "panel[0].brick.thickness is 0.12 m, and the panel 52 m high, 433 times as much, more than 100; look at thickness, `brick.height` and `courses`"
         ]
     );
-    assert_eq!(told("80"), [""; 0]);
+    // Three storeys of half a brick, 9.1 m, are 76.
+    assert_eq!(told("140"), [""; 0]);
+    assert_eq!(told("190").len(), 1);
 }
 
 /// Two seconds of a weak wave and a strong one at 0.35 g between: what cuts the strong part off is told, with what is left.
@@ -1198,6 +1224,20 @@ fn records_that_lose_their_strongest_part_are_told() {
     {
         assert_eq!(told(fine), [""; 0], "{fine}");
     }
+    // What is advised of an offset takes no shaking away.
+    let write = |unit: &str, sample: &dyn Fn(i32) -> f64| {
+        let samples: String = (0..400).map(|k| format!("{}\n", sample(k))).collect();
+        std::fs::write(folder.path().join("x.txt"), format!("# dt = 0.005 s, units: {unit}\n{samples}"))
+            .expect("a record");
+    };
+    write("g", &|k| 0.3 + 0.1 * (0.3 * f64::from(k)).sin());
+    assert_eq!(told(", baseline = { polynomial = 0 }"), [""; 0]);
+    // Each step is held to its own limit: 0.25 g of 0.35 g are enough of a trimmed record, and sampling leaves them.
+    write("g", &|k| if k < 200 { 0.25 } else { 0.35 } * (0.3 * f64::from(k)).sin());
+    assert_eq!(told(", trim = [0, 0.9], resample = 0.01"), [""; 0]);
+    // A displacement history has no peak acceleration of its own.
+    write("mm", &wave);
+    assert_eq!(told(", quantity = \"displacement\", trim = [0, 0.9]"), [""; 0]);
 }
 
 /// A region in millimetres holds the whole wall, and a change that was meant for a corner is one of all joints.
@@ -1249,7 +1289,8 @@ fn records_scaled_by_g_or_one_without_the_other_are_told() {
         let upright = if vertical.is_empty() { String::new() } else { format!("vertical = {{ {vertical} }}\n") };
         let case = case(&format!("{wall}base = {{ {base} }}\n{upright}"));
         let prepared = concio::run::prepare_case(case, folder.path()).unwrap_or_else(|e| panic!("{e}"));
-        let words = ["conversion", "few records have", "no longer have the ratio", "hardly moves"];
+        let words =
+            ["conversion", "few records have", "no longer have the ratio", "hardly moves", "less than 0.01 m/s²"];
         let odd = |text: &String| words.into_iter().any(|word| text.contains(word));
         prepared.model.warnings.iter().map(|w| w.text.clone()).filter(odd).collect::<Vec<_>>()
     };
@@ -1293,6 +1334,8 @@ fn records_scaled_by_g_or_one_without_the_other_are_told() {
         ("m/s2", 1.0, "0.0357", "Is it 0.35 g? Then its unit is \"g\""),
         ("cm/s2", 9.80665, "0.0035", "Is it 0.35 g? Then its unit is \"m/s2\""),
         ("cm/s2", 3.0, "0.00107", "Is it 1.05 g, or 0.107 g? Then its unit is \"g\", or \"m/s2\""),
+        // Less than 0.01 m/s² too, which is told once.
+        ("cm/s2", 2.0, "0.000714", "Is it 0.7 g, or 0.0714 g? Then its unit is \"g\", or \"m/s2\""),
     ] {
         let numbers: String = (0..400).map(|k| format!("{}\n", 0.35 * factor * (0.3 * f64::from(k)).sin())).collect();
         std::fs::write(folder.path().join("wrong.txt"), format!("# dt = 0.005 s, units: {unit}\n{numbers}"))
@@ -1303,6 +1346,17 @@ fn records_scaled_by_g_or_one_without_the_other_are_told() {
         assert_eq!(told("record = \"wrong.txt\"", ""), [said]);
         assert_eq!(told("record = \"wrong.txt\", pga = \"0.35 g\"", ""), [""; 0]);
     }
+    // A weak vertical component is no slip beside a base that shakes; beside one as weak both are.
+    let weak = |name: &str, size: f64| {
+        let numbers: String = (0..400).map(|k| format!("{}\n", size * (0.3 * f64::from(k)).sin())).collect();
+        std::fs::write(folder.path().join(name), format!("# dt = 0.005 s, units: m/s2\n{numbers}")).expect("a record");
+    };
+    weak("weak-x.txt", 1.0);
+    weak("weak-z.txt", 0.4);
+    assert_eq!(told("record = \"weak-x.txt\"", "record = \"weak-z.txt\""), [""; 0]);
+    weak("weak-x.txt", 0.45);
+    let both = told("record = \"weak-x.txt\"", "record = \"weak-z.txt\"");
+    assert!(both.len() == 2 && both.iter().all(|w| w.contains("hardly moves")), "{both:?}");
     // A limit is not told of itself.
     assert_eq!(told(&x(", pga = \"3 g\""), ""), [""; 0]);
     assert!(told(&x(", pga = \"3.0001 g\""), "")[0].contains("3.0001 g as it moves the wall, more than 3 g"));

@@ -1,7 +1,7 @@
 //! Joints, bonds, forces and ties of planar walls, which press, part and slide.
 
 use concio::bond;
-use concio::case::{BlockForce, Case};
+use concio::case::{BlockForce, Case, JointChange};
 use concio::model::Model;
 use concio::planar::{Planar, Rest, tie_lines};
 use concio::quantity::Force;
@@ -182,22 +182,34 @@ fn metres(x: f64) -> String {
     format!("{:.3}", x + 0.0).replace("-0.000", "0.000")
 }
 
-/// Whether a wall and its ties are their own mirror image, so that a push to one side is one to the other.
+/// Whether a wall with its ties, joints and forces is its own mirror image, so that a push to one side is one to the other.
 pub fn is_symmetric(case: &Case, model: &Model) -> bool {
+    if !case.forces.is_empty() {
+        return false;
+    }
     let blocks = &model.wall.blocks;
     let [left, right] =
         blocks.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, r], b| [l.min(b.x[0]), r.max(b.x[1])]);
     let grain = 1e-6 * (right - left).max(f64::MIN_POSITIVE);
     let rounded = |v: f64| (v / grain).round() as i64;
+    // Parts of the wall whose joints, or devices in them, are others than elsewhere.
+    let aside = |[x0, x1]: [f64; 2]| rounded(x0.max(left) - left) != rounded(right - x1.min(right));
+    let changed = case.joint.changes.iter().any(|JointChange { at, .. }| {
+        let of_panels = !at.panel.is_empty() && case.panels.len() > 1;
+        of_panels || !at.joints.is_empty() || at.region.is_some_and(|[x0, _, x1, _]| aside([x0.si(), x1.si()]))
+    });
+    if changed {
+        return false;
+    }
     // The two ends of anything, the first to the left.
-    let both = |x: [f64; 2], own: [f64; 2], mirrored: [f64; 2]| {
-        let all = |x: [f64; 2], y: [f64; 2]| [x[0], x[1], y[0], y[1]].map(rounded);
+    let both = |x: [f64; 2], own: [f64; 2], mirrored: [f64; 2], stuff: [f64; 2]| {
+        let all = |x: [f64; 2], y: [f64; 2]| [x[0], x[1], y[0], y[1], stuff[0], stuff[1]].map(rounded);
         (all([x[0] - left, x[1] - left], own), all([right - x[1], right - x[0]], mirrored))
     };
-    let of_blocks = blocks.iter().map(|b| both(b.x, b.y, b.y));
+    let of_blocks = blocks.iter().map(|b| both(b.x, b.y, b.y, [b.thickness, b.specific_weight]));
     let of_ties = tie_lines(case, &model.wall).into_iter().map(|[x0, y0, x1, y1]| match x0 <= x1 {
-        true => both([x0, x1], [y0, y1], [y1, y0]),
-        false => both([x1, x0], [y1, y0], [y0, y1]),
+        true => both([x0, x1], [y0, y1], [y1, y0], [0.0; 2]),
+        false => both([x1, x0], [y1, y0], [y0, y1], [0.0; 2]),
     });
     let (mut own, mut mirrored): (Vec<_>, Vec<_>) = of_blocks.chain(of_ties).unzip();
     own.sort_unstable();
