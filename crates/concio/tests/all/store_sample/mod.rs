@@ -242,7 +242,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
                 block: 0,
                 way: 0.25,
                 turned: true,
-                before: Some(Before { residual: 1e-5, steps: 60, unsolved: 1, moving: 2 }),
+                before: Some(Before { residual: 1e-5, steps: 6, unsolved: 1, moving: 2 }),
             }),
         },
         counters: Counters {
