@@ -178,7 +178,7 @@ pub fn short(signal: &Signal) -> String {
     }
 }
 
-/// What [`sense`] begins with.
+/// What `sense` begins with.
 pub const PUSHES: &str = "pushes the wall to the";
 
 /// Where what pushes one way pushes the wall, along its plane: inertia points against the acceleration of the base.
