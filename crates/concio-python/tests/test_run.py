@@ -173,7 +173,7 @@ def test_arrays_are_doubted_as_files_are(planar: Wall, quake: Record, tmp_path: 
     assert any("more than 60 m/s²" in warning.text for warning in told)
     # Samples in g that were taken for m/s²; who chooses a peak means it.
     in_g = Record.from_array(0.35 * np.sin(0.3 * np.arange(400)), dt=0.005)
-    asked = "the unit of the record is \"m/s2\", in which the record's peak acceleration is 0.0357 g: it hardly moves a wall. Is it 0.35 g?"
+    asked = 'the unit of the record is "m/s2", in which the record\'s peak acceleration is 0.0357 g: it hardly moves a wall. Is it 0.35 g?'
     assert any(asked in warning.text for warning in planar.run(base=in_g, duration="50 ms").warnings)
     for meant in (in_g.scaled(pga="0.03 g"), Record.from_array(in_g.acceleration, dt=0.005, units="g")):
         assert not any("hardly moves" in warning.text for warning in planar.run(base=meant, duration="50 ms").warnings)
