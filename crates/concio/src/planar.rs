@@ -510,7 +510,8 @@ pub(crate) fn bonds(wall: &Wall, joints: &[Joint], laws: &[JointLaw]) -> Vec<Bon
 }
 
 /// By which part of its length a rigid joint is pressed in where it crushes: what is crushed is known of joints with springs. It is a hundredth of what
-/// stones of 0.5 m are pressed in, whose strain at their strength is 1e-3; stiffer springs ring within a step, and walls of them are hard to solve.
+/// stones of 0.5 m are pressed in, whose strain at their strength is 1e-3; stiffer springs ring within a step, and walls of them are hard to solve. They are damped as
+/// others are: blocks that slide on springs without dashpots hop, in steps that resolve it.
 const PRESSED_IN: f64 = 1e-5;
 
 /// The same of a joint whose springs are given, at least.
@@ -548,7 +549,7 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
     let (normal, series) = match spring.acts() {
         Acts::Rigidly if crushing.is_finite() => {
             let (both, press) = if bond.is_some() { (rigid, 0.0) } else { (0.0, rigid) };
-            (Normal::Springs { both, press, damping: 0.0 }, true)
+            (Normal::Springs { both, press, damping: dashpot(rigid) }, true)
         }
         Acts::Rigidly => {
             let (restitution, rocking) = (spring.restitution, spring.rocking_restitution);
@@ -565,7 +566,7 @@ fn compile_law(case: &Case, wall: &Wall, joint: &Joint, law: &JointLaw) -> Law {
         }
     };
     let shear = match spring.acts() {
-        Acts::Rigidly if crushing.is_finite() => Shear { stiffness: rigid, damping: 0.0, series },
+        Acts::Rigidly if crushing.is_finite() => Shear { stiffness: rigid, damping: dashpot(rigid), series },
         Acts::Rigidly => Shear { stiffness: 0.0, damping: 0.0, series: false },
         _ => Shear { stiffness: along * stiffness * pulling(spring), damping: dashpot(along * given), series },
     };

@@ -108,6 +108,10 @@ impl Crack {
             (kind == PRESSED || kind == CRUSHED) && zone.acts[0] < THIN * crushes && zone.acts[0] > 10.0 * NOTHING
         };
         let there = |kind: usize, zone: &Zone| zone.is_there() || edge(kind, zone);
+        // Such a spring may pull in a step, and what crushes rubs for it: what rubs of its pressure, over that of what crushes.
+        let rubbed = |zone: &Zone| zone.gap[0] * zone.rubs[0] / zone.acts[0];
+        let thin = zones.iter().enumerate().filter(|(kind, zone)| edge(*kind, zone)).map(|(_, zone)| rubbed(zone));
+        let also = thin.sum::<f64>() / rubbed(&zones[CRUSHING]).min(-f64::MIN_POSITIVE);
         let ends = zones
             .iter()
             .filter(|zone| zone.is_there())
@@ -144,6 +148,8 @@ impl Crack {
                 }
                 if edge > 0.0 {
                     (spot.edge, spot.rubbing) = (edge, 0.0);
+                } else if kind == CRUSHING {
+                    spot.rubbing *= 1.0 + also;
                 }
                 if crushed {
                     // What closes does so as it is there: with a line through all of it an end would bear that is open still.

@@ -1051,6 +1051,37 @@ fn a_rigid_joint_that_rocking_crushes_rubs_alike_in_long_steps() {
     agrees!(format!("{subject}; energy of friction over that"), short, "", rubs / takes, rubbed / taken, abs: 1e-3);
 }
 
+/// A stone of 1 m × 3.25 m whose base is pushed at 4.5 m/s² for a quarter of a second turns on the edge that it crushes and slides on it: friction bears μ of all that presses
+/// there, what is pressed beside what crushes included.
+#[test]
+fn what_slides_on_an_edge_that_crushes_rubs_by_all_that_presses() {
+    let (size, mu) = ([1.0, 3.25], 0.3);
+    for k in [2e10, 1e11] {
+        let law = Law {
+            normal: Normal::Springs { both: 0.0, press: k, damping: 0.0 },
+            shear: Shear { stiffness: k / 2.4, damping: 0.0, series: true },
+            crushing: 1e6,
+            ..Law::dry(Some(Friction::coulomb(mu)))
+        };
+        let mut motion = Motion::new(&system(block(size), law), Setting::new(1e-3));
+        assert!(motion.stand(1e-9, 4000));
+        let (mut least, mut crushing, mut taken) = (f64::INFINITY, 0, 0.0);
+        for n in 0..270 {
+            let shakes = 4.5 * (n as f64 / 20.0).min(1.0).min((270 - n) as f64 / 20.0);
+            motion.go(1e-3, &|from, to| Forcing { base: [shakes * (to - from), 0.0], held: 0.0 });
+            let seen = &motion.seen[0];
+            if seen.speed.abs() > 0.02 && motion.account.bond > taken {
+                (least, crushing) = (least.min(seen.friction.abs() / seen.pressure), crushing + 1);
+            }
+            taken = motion.account.bond;
+        }
+        assert!(crushing > 150, "{crushing}");
+        let subject =
+            "Crushing: stone of 1 m × 3.25 m that slides on the edge that it crushes, least friction over pressure";
+        agrees!(format!("{subject}, springs of {k:e} N/m"), "μ", "", least, mu, 2e-3);
+    }
+}
+
 /// A stone on soft springs that half-sines press to 1.1 of what its joint bears, in steps of 1 ms: what crushing takes hangs on how the stone swings until then.
 #[test]
 fn a_load_that_just_crushes_a_soft_joint_crushes_it_as_far_as_it_should() {

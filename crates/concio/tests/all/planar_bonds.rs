@@ -327,6 +327,37 @@ top = { path = { displacements = ["4 mm", "-4 mm", "4 mm"], speed = "20 mm/s" } 
     agrees!(subject, "μ N over the way", "J", outcome.energies.friction, 480.0, 1e-2);
 }
 
+/// A stone that is shaken slides on a rigid joint that can be crushed as on one that cannot, where it is not, however short the steps: it does not hop.
+#[test]
+fn a_rigid_joint_that_is_not_crushed_slides_as_one_that_cannot_be() {
+    let slid = |strength: &str, step: f64| {
+        let stone = block(&format!(
+            r#"mortar = {{ bed = 0, head = 0 }}
+[joint]
+bed = {{ law = "rigid"{strength} }}
+head = {{ law = "none" }}
+friction = {{ law = "coulomb", static = 0.5 }}
+[motion]
+duration = "1.2 s"
+base = {{ sine = {{ amplitude = "20 mm", frequency = "3 Hz", ramp = "0.3 s" }} }}
+[solver]
+step = {step}
+"#
+        ));
+        let stone =
+            stone.replace("length = 0.5, height = 0.5, thickness = 1", "length = 1, height = 1, thickness = 0.5");
+        ran(&stone).1.energies.friction
+    };
+    let rigid = slid("", 2.5e-4);
+    for step in [1e-3, 2.5e-4, 1e-4] {
+        let found = slid(r#", compressive_strength = "0.2 MPa""#, step);
+        let subject = format!(
+            "Crushing: stone shaken on a rigid joint, f_c not reached, in steps of {step} s; energy of friction"
+        );
+        agrees!(subject, "the same without f_c", "J", found, rigid, 1e-2);
+    }
+}
+
 /// Breaking in shear takes G_f^II A under any pressure, and friction μ N takes the place of what the strength c A + N tan φ loses on the way (B4), (B5).
 #[test]
 fn a_full_break_takes_its_energy_under_any_pressure() {
