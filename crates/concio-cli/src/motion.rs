@@ -16,8 +16,8 @@ use crate::format::{plain, seconds, si, significant};
 /// Lines that say what moves the wall: names and values.
 type Rows = Vec<(&'static str, String)>;
 
-/// The motion of a run; `folder` is where relative record paths start.
-pub fn describe(prepared: &Prepared, folder: &Path) -> Result<Rows, Failure> {
+/// The motion of a run; `folder` is where relative record paths start. Of a wall that is `lopsided` a push the other way is another push.
+pub fn describe(prepared: &Prepared, folder: &Path, lopsided: bool) -> Result<Rows, Failure> {
     let (motion, duration) = (&prepared.case.motion, prepared.model.excitation.duration);
     let driven = prepared.case.load.beam == Beam::Driven;
     let mut found = Rows::new();
@@ -37,7 +37,9 @@ pub fn describe(prepared: &Prepared, folder: &Path) -> Result<Rows, Failure> {
             closed => {
                 found.push((name, closed_form(closed)));
                 let in_plane = name == "base" && prepared.model.rocking().is_none();
-                found.extend(sense(closed).filter(|_| in_plane).map(|sense| ("", sense)));
+                let other = if lopsided { "; it is not symmetric: run the other sign too" } else { "" };
+                let told = sense(closed).filter(|_| in_plane);
+                found.extend(told.map(|side| ("", format!("pushes the wall to the {side}{other}"))));
             }
         }
     }
@@ -178,11 +180,8 @@ pub fn short(signal: &Signal) -> String {
     }
 }
 
-/// What `sense` begins with.
-pub const PUSHES: &str = "pushes the wall to the";
-
-/// Where what pushes one way pushes the wall, along its plane: inertia points against the acceleration of the base.
-fn sense(signal: &Signal) -> Option<String> {
+/// To which side what pushes one way pushes the wall, along its plane: inertia points against the acceleration of the base.
+fn sense(signal: &Signal) -> Option<&'static str> {
     let acceleration = match signal {
         Signal::Tilt(tilt) => tilt.acceleration.si(),
         Signal::Pulse(pulse) => match pulse.shape {
@@ -192,7 +191,7 @@ fn sense(signal: &Signal) -> Option<String> {
         _ => return None,
     };
     let side = if acceleration > 0.0 { "left" } else { "right" };
-    (acceleration != 0.0).then(|| format!("{PUSHES} {side}"))
+    (acceleration != 0.0).then_some(side)
 }
 
 /// A motion that is no record, with its numbers.

@@ -74,6 +74,8 @@ pub struct Problem {
     pub level: Option<usize>,
     /// Whether a load on the blocks has mass, and pushes with them.
     pub laden: bool,
+    /// What of the wall file holds or pushes blocks and is left out: ties, forces on blocks.
+    pub left_out: Vec<&'static str>,
     /// What the analysis leaves out of the wall file, or takes otherwise than it may be meant.
     pub warnings: Vec<String>,
 }
@@ -131,6 +133,7 @@ impl Problem {
             live: live.iter().map(|w| [sign * w, 0.0]).collect(),
             level: level.then_some(blocks),
             laden: model.load_mass > 0.0,
+            left_out: left_out(given),
             warnings: warnings(given, &model, &sides),
             wall: model.wall,
         })
@@ -176,13 +179,17 @@ fn strengths(joint: &mut Joints) -> Vec<&mut Option<Stress>> {
     springs.chain(changes.map(|spring| &mut spring.compressive_strength)).collect()
 }
 
+fn left_out(case: &Case) -> Vec<&'static str> {
+    let besides = [("ties", !case.ties.is_empty()), ("forces on blocks", !case.forces.is_empty())];
+    besides.into_iter().filter_map(|(what, given)| given.then_some(what)).collect()
+}
+
 fn warnings(case: &Case, model: &Model, sides: &[Sides]) -> Vec<String> {
     let bonded = case.joint.bond.is_some() || case.joint.changes.iter().any(|c| c.bond.is_some());
     let bonded = bonded.then(|| "the bond of the joints is left out: they count as dry".to_string());
-    let besides = [("ties", !case.ties.is_empty()), ("forces on blocks", !case.forces.is_empty())];
-    let besides = besides.into_iter().filter(|(_, given)| *given);
-    let besides =
-        besides.map(|(what, _)| format!("the {what} are left out: the multiplier is that of the wall without them"));
+    let besides = left_out(case)
+        .into_iter()
+        .map(|what| format!("the {what} are left out: the multiplier is that of the wall without them"));
     let mortar = |p: &concio::case::Panel| p.mortar.bed.si() > 0.0 || p.mortar.head.si() > 0.0;
     let laid = case.panels.iter().any(mortar).then(|| {
         "mortar counts as a dry joint, a line in its middle: it bears no tension, and blocks touch there".to_string()

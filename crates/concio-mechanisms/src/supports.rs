@@ -46,7 +46,7 @@ pub(crate) struct Supports<'w> {
 
 /// What acts on the wall at a trial α.
 #[derive(Debug, Clone)]
-pub(crate) struct Yielding {
+pub(crate) struct Yielding<'s> {
     /// Masonry without courses that stay.
     pub(crate) masonry: Masonry,
     /// Floors; one whose course stays carries that, and has the friction of its joints as its connection.
@@ -56,7 +56,7 @@ pub(crate) struct Yielding {
     /// Level [m] of each floor that holds, its force [N], and whether its course stays.
     pub(crate) forces: Vec<(f64, f64, bool)>,
     /// Of [`Supports`].
-    slipping: Vec<(f64, [f64; 2])>,
+    slipping: &'s [(f64, [f64; 2])],
 }
 
 impl<'w> Supports<'w> {
@@ -129,7 +129,7 @@ impl<'w> Supports<'w> {
     }
 
     /// What acts at a trial α on what moves between two levels [m].
-    pub(crate) fn at(&self, alpha: f64, between: [f64; 2]) -> Yielding {
+    pub(crate) fn at(&self, alpha: f64, between: [f64; 2]) -> Yielding<'_> {
         let wall = self.wall;
         let floors = wall.floors.iter().map(|f| f.floor).collect();
         let mut found = Yielding {
@@ -137,7 +137,7 @@ impl<'w> Supports<'w> {
             floors,
             ties: Vec::new(),
             forces: Vec::new(),
-            slipping: self.slipping.clone(),
+            slipping: &self.slipping,
         };
         let mut gone = Vec::new();
         let inside = |h: &&Held| h.level > between[0] + LEVEL && h.level < between[1] - LEVEL;
@@ -167,9 +167,9 @@ impl<'w> Supports<'w> {
     pub(crate) fn least<T>(
         &self,
         between: [f64; 2],
-        make: impl Fn(&Yielding) -> Option<T>,
+        make: impl Fn(&Yielding<'_>) -> Option<T>,
         multiplier: impl Fn(&T) -> f64,
-    ) -> Option<(T, Yielding)> {
+    ) -> Option<(T, Yielding<'_>)> {
         let first = self.at(0.0, between);
         let mut found = (make(&first)?, first);
         for _ in 0..TRIALS {
@@ -187,7 +187,7 @@ impl<'w> Supports<'w> {
 
 impl Held {
     /// The course stays: what lies on it rises with the wall, and does not go out.
-    fn stays(&self, found: &mut Yielding) {
+    fn stays(&self, found: &mut Yielding<'_>) {
         let [low, high] = self.course;
         let in_it = |p: &Piece| Piece { z: [p.z[0].max(low), p.z[1].min(high)], weight: -p.weight, ..*p };
         let taken: Vec<Piece> = found.masonry.pieces.iter().map(in_it).filter(|p| p.z[1] > p.z[0]).collect();
@@ -208,7 +208,7 @@ fn stands(floor: &Floor, rubs: f64) -> Floor {
     Floor { pushing: -floor.load, thrust: 0.0, friction: 0.0, connection: rubs, ..*floor }
 }
 
-impl Yielding {
+impl Yielding<'_> {
     /// What gives way between two levels [m], in words.
     pub(crate) fn told(&self, levels: [f64; 2]) -> Vec<String> {
         let inside = self.forces.iter().filter(|(z, ..)| *z > levels[0] + LEVEL && *z < levels[1] - LEVEL);
@@ -230,9 +230,8 @@ impl Yielding {
 
 /// Bottom and top of the course of a level [m].
 fn course(wall: &Wall, level: f64) -> [f64; 2] {
-    let low = wall.levels.iter().copied().rfind(|z| *z < level - LEVEL).unwrap_or(0.0);
     let high = wall.levels.iter().copied().find(|z| *z >= level - LEVEL).unwrap_or(wall.top.max(level));
-    [low, high]
+    [wall.joint_below(level), high]
 }
 
 /// Friction of the bed joints below and above a course [N].

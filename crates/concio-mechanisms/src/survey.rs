@@ -234,6 +234,17 @@ impl Survey {
         };
         Kind::ALL.into_iter().filter_map(least).collect()
     }
+
+    /// The same and, after that of its kind, the one with the worst check, which may turn about another level.
+    pub fn least_and_worst(&self) -> Vec<&Found> {
+        let mut chosen = self.least_of_kinds();
+        let other = self.worst().filter(|worst| !chosen.iter().any(|found| std::ptr::eq(*found, *worst)));
+        if let Some(worst) = other {
+            let after = chosen.iter().position(|found| found.kind == worst.kind).map_or(chosen.len(), |at| at + 1);
+            chosen.insert(after, worst);
+        }
+        chosen
+    }
 }
 
 struct Making<'w> {
@@ -385,17 +396,17 @@ impl Making<'_> {
         none.then(|| format!("a floor holds the wall at {held:.2} m, its top"))
     }
 
-    fn facade<'f>(&self, yields: &'f Yielding) -> Facade<'f> {
+    fn facade<'f>(&self, yields: &'f Yielding<'_>) -> Facade<'f> {
         let Yielding { masonry, floors, ties, .. } = yields;
         Facade { masonry, floors, ties, side_walls: &[], crushing: self.wall.crushing, overlaps: self.overlaps }
     }
 
     /// The least over what gives way, about a joint; none where a floor holds the course on it.
-    fn turned(&self, hinge: f64, side_walls: &[SideWall], overlaps: Overlaps) -> Option<(Overturning, Yielding)> {
+    fn turned(&self, hinge: f64, side_walls: &[SideWall], overlaps: Overlaps) -> Option<(Overturning, Yielding<'_>)> {
         if self.supports.blocks(hinge) {
             return None;
         }
-        let make = |yields: &Yielding| {
+        let make = |yields: &Yielding<'_>| {
             let facade = Facade { overlaps, side_walls, ..self.facade(yields) };
             Some(facade.least(hinge))
         };
@@ -488,7 +499,7 @@ impl Making<'_> {
     }
 
     /// What to know of what holds the part over a hinge back.
-    fn of_supports(&self, hinge: f64, yields: &Yielding) -> Vec<String> {
+    fn of_supports(&self, hinge: f64, yields: &Yielding<'_>) -> Vec<String> {
         let gave = yields.told([hinge, f64::INFINITY]);
         let facade = self.facade(yields);
         let lost = yields.ties.iter().filter(|tie| tie.level > hinge + LEVEL).filter_map(|tie| {
@@ -506,7 +517,7 @@ impl Making<'_> {
     }
 
     /// α at which the bed joint on a level slides, as if side walls did not hold what lies above.
-    fn sliding(&self, hinge: f64, yields: &Yielding) -> f64 {
+    fn sliding(&self, hinge: f64, yields: &Yielding<'_>) -> f64 {
         let own = yields.masonry.above(hinge).weight;
         let (mut holds, mut masses) = (self.wall.friction * own, own);
         for floor in yields.floors.iter().filter(|f| f.level > hinge + LEVEL) {
@@ -583,7 +594,7 @@ impl Making<'_> {
         for &low in feet.iter().filter(|low| !self.supports.blocks(**low)) {
             for top in tops.iter().filter(|top| top.floor.level > low + LEVEL) {
                 let levels = [low, top.floor.level];
-                let make = |yields: &Yielding| self.storey(levels, top, yields);
+                let make = |yields: &Yielding<'_>| self.storey(levels, top, yields);
                 let Some((mut storey, yields)) = self.supports.least(levels, make, |s| s.arch.multiplier()) else {
                     continue;
                 };
@@ -634,7 +645,7 @@ impl Making<'_> {
     }
 
     /// The arch between two levels, the upper one held by `upper`; none where no bed joint lies between them.
-    fn storey(&self, levels: [f64; 2], upper: &FloorOf, yields: &Yielding) -> Option<Storey> {
+    fn storey(&self, levels: [f64; 2], upper: &FloorOf, yields: &Yielding<'_>) -> Option<Storey> {
         let wall = self.wall;
         let t = wall.masonry.thickness;
         let [low, high] = levels;

@@ -130,7 +130,11 @@ impl Wall {
 
     /// Whether a tie is so near a support at a level [m] that it bears its reaction: from the bed joint below it on.
     pub fn is_beside(&self, tie: &Tie, level: f64) -> bool {
-        let below = self.levels.iter().copied().rfind(|z| *z < level - LEVEL).unwrap_or(0.0);
-        tie.level >= below && tie.level <= level + BESIDE
+        tie.level >= self.joint_below(level) && tie.level <= level + BESIDE
+    }
+
+    /// Level of the bed joint below another one, or of the base [m].
+    pub(crate) fn joint_below(&self, level: f64) -> f64 {
+        self.levels.iter().copied().rfind(|z| *z < level - LEVEL).unwrap_or(0.0)
     }
 }

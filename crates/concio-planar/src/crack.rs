@@ -372,8 +372,6 @@ pub struct Crack {
     hidden: f64,
     /// Its springs along, once nothing of its bond is left.
     fibres: Fibres,
-    /// What was crushed between its fibres before the step [m]; none of a joint that bears any pressure.
-    shallower: Vec<f64>,
     /// When it first cracked [s]; infinite while it is intact.
     pub cracked: f64,
     /// When nothing was left of it [s].
@@ -432,6 +430,27 @@ pub(crate) struct Worn {
     pub beyond: f64,
     /// How much of the step was over when a part of it that breaks at once did so, 0 … 1; none where none did.
     pub breaks_at: Option<f64>,
+}
+
+/// How a joint stands as a step has ended.
+struct Ended<'s> {
+    /// Opening and slide at both ends [m].
+    line: &'s [[f64; 2]; 2],
+    /// Without inertia.
+    still: bool,
+    /// How fast its ends part, where dashpots count [m/s].
+    parting: [f64; 2],
+    /// What was crushed between its fibres before the step [m], which counts with inertia; none where nothing was.
+    shallower: Option<&'s [f64; BETWEEN_FIBRES]>,
+}
+
+/// The first and the last of what is somewhere `at` a joint; none where they are no two.
+fn outermost<T: Copy>(mut all: impl Iterator<Item = T>, at: impl Fn(T) -> f64) -> Option<[T; 2]> {
+    let only = all.next()?;
+    let [first, last] = all.fold([only; 2], |[first, last], one| {
+        [if at(one) < at(first) { one } else { first }, if at(one) > at(last) { one } else { last }]
+    });
+    (at(last) > at(first)).then_some([first, last])
 }
 
 /// Opening and slide of the point that a spot stands for [m].
@@ -496,7 +515,6 @@ impl Crack {
             placed: [[0.0; 2]; ZONES],
             hidden: 0.0,
             fibres: Fibres::new(law.cracked().in_line()),
-            shallower: vec![0.0; if crushed_nodes(law) > 0 { BETWEEN_FIBRES } else { 0 }],
             cracked: since,
             broken: since,
             reach: 0.0,
@@ -547,6 +565,11 @@ impl Crack {
     /// Whether its points stand for something that is crushed.
     pub(crate) fn is_crushed(&self) -> bool {
         self.spots.iter().any(|spot| spot.crushed != 0.0)
+    }
+
+    /// Whether nothing is crushed of it.
+    fn is_even(&self) -> bool {
+        self.crushed.iter().all(|depth| *depth == 0.0)
     }
 
     /// The most that is crushed of it [m].
@@ -611,7 +634,7 @@ impl Crack {
             }
         };
         // Most joints by far.
-        if gone && self.crushed.iter().all(|depth| *depth == 0.0) && -from.min(to) < most {
+        if gone && self.is_even() && -from.min(to) < most {
             take([(0.0, [1.0, 1.0, 1.0, from]), (1.0, [1.0, 1.0, 1.0, to])], PRESSED);
         } else {
             let depth = |n: usize| *self.crushed.get(n).unwrap_or(&0.0);
@@ -690,7 +713,6 @@ impl Crack {
         self.nodes.len() == if law.bond.is_some() { NODES } else { 0 }
             && (law.bond.is_some() || self.is_gone())
             && self.crushed.len() == crushed_nodes(law)
-            && self.shallower.len() == if self.crushed.is_empty() { 0 } else { BETWEEN_FIBRES }
             && self.fibres.fit(law.cracked().in_line())
             && (1..=POINTS).contains(&self.spots.len())
             && self.spots.iter().all(|spot| spot.point < POINTS && spot.at.is_finite() && spot.share > 0.0)
@@ -704,7 +726,7 @@ impl Crack {
             return 0.0;
         }
         let stiffness = law.normal_stiffness();
-        let Some([start, slope]) = self.line_at(&gaps) else { return 0.0 };
+        let Some([start, slope]) = self.gap_at(&gaps) else { return 0.0 };
         let mut found = [0.0; 2];
         for (point, gap) in gaps {
             let Some(spot) = self.spots.iter().find(|spot| spot.point == point) else { continue };
@@ -738,7 +760,7 @@ impl Crack {
     /// By how much more is crushed where its points are at these gaps [m], over what its springs are pressed in by where that begins.
     pub(crate) fn crushes_by(&self, law: &Law, gaps: Gaps) -> f64 {
         let most = law.crushing / law.normal_stiffness();
-        let Some([start, slope]) = self.line_at(&gaps).filter(|_| self.is_gone()) else { return 0.0 };
+        let Some([start, slope]) = self.gap_at(&gaps).filter(|_| self.is_gone()) else { return 0.0 };
         if -start.min(start + slope) <= most {
             return 0.0;
         }
@@ -747,24 +769,19 @@ impl Crack {
     }
 
     /// Gap at the first end and by how much more it is at the other, where its points are at these gaps [m]; none where they are no two.
-    fn line_at(&self, gaps: &[(usize, f64)]) -> Option<[f64; 2]> {
+    fn gap_at(&self, gaps: &[(usize, f64)]) -> Option<[f64; 2]> {
         let standing = |point: usize| self.spots.iter().find(|spot| spot.point == point);
-        let places = || gaps.iter().filter_map(|(point, gap)| Some([standing(*point)?.at, *gap]));
-        let [from, near] = places().reduce(|a, b| if b[0] < a[0] { b } else { a })?;
-        let [to, far] = places().reduce(|a, b| if b[0] > a[0] { b } else { a })?;
+        let places = gaps.iter().filter_map(|(point, gap)| Some([standing(*point)?.at, *gap]));
+        let [[from, near], [to, far]] = outermost(places, |place| place[0])?;
         let slope = (far - near) / (to - from);
-        (to > from).then_some([near - slope * from, slope])
+        Some([near - slope * from, slope])
     }
 
-    /// Keeps what is crushed between its fibres until the step is over.
-    fn remember_crushed(&mut self) {
-        if self.crushed.iter().all(|depth| *depth == 0.0) {
-            return;
-        }
-        let last = (self.crushed.len() - 1) as f64;
-        for (n, depth) in self.shallower.iter_mut().enumerate() {
-            *depth = self.crushed[(n as f64 / (BETWEEN_FIBRES - 1) as f64 * last).round() as usize];
-        }
+    /// What is crushed between its fibres [m]; none where nothing is.
+    fn crushed_at_fibres(&self) -> Option<[f64; BETWEEN_FIBRES]> {
+        let last = self.crushed.len().checked_sub(1).filter(|_| !self.is_even())? as f64;
+        let node = |n: usize| (n as f64 / (BETWEEN_FIBRES - 1) as f64 * last).round() as usize;
+        Some(std::array::from_fn(|n| self.crushed[node(n)]))
     }
 
     /// Crushes what is pressed harder than it bears, its ends being as far apart as `line` says; what that takes [J].
@@ -811,14 +828,11 @@ impl Crack {
 
     /// Opening and slide at the ends where the points of a part have those `of` them; none where they are no two.
     fn line_through(&self, part: Part, of: &impl Fn(&Spot) -> [f64; 2]) -> Option<[[f64; 2]; 2]> {
-        let mut spots = self.spots.iter().filter(|spot| spot.part == part);
-        let only = spots.next()?;
-        let [first, second] = spots.fold([only; 2], |[first, second], spot| {
-            [if spot.at < first.at { spot } else { first }, if spot.at > second.at { spot } else { second }]
-        });
+        let spots = self.spots.iter().filter(|spot| spot.part == part);
+        let [first, second] = outermost(spots, |spot| spot.at)?;
         let (from, to, length) = (of(first), of(second), second.at - first.at);
         let at = |x: f64| [0, 1].map(|k| from[k] + (x - first.at) / length * (to[k] - from[k]));
-        (length > 0.0).then(|| [at(0.0), at(1.0)])
+        Some([at(0.0), at(1.0)])
     }
 
     /// Energy in the springs of the joint as its line and its points stand [J].
@@ -949,8 +963,9 @@ impl Crack {
         // What has cracked opens as the edges of the blocks stand, what is held by how far it was stretched: they differ by rounding and by turning.
         let dry_line = |crack: &Self| crack.line_through(Part::Dry, &ways(points)).unwrap_or(crack.line);
         let line = if bonded == 0 { self.line } else { dry_line(self) };
-        self.remember_crushed();
+        let shallower = if still { None } else { self.crushed_at_fibres() };
         let crushed = self.crush(law, &line);
+        let ended = Ended { line: &line, still, parting, shallower: shallower.as_ref() };
         let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
         // What the points have crushed in the step is told as theirs.
         let told: f64 = dry().map(|spot| (points[spot.point].crushed - spot.crushed) * spot.share).sum();
@@ -964,7 +979,7 @@ impl Crack {
         }
         let zones = self.zones(law, &line);
         if !new && self.stand(&zones, still) {
-            return self.rub(law, points, (&line, still, parting));
+            return self.rub(law, points, &ended);
         }
         taken += crushed - if told > 0.0 { law.crushing * told } else { 0.0 };
         let before = self.stored(law, points);
@@ -991,9 +1006,9 @@ impl Crack {
         self.set(points);
         let rubbed = if self.fibres.are_there() && self.is_gone() {
             // Springs along are theirs.
-            self.follow_fibres(law, points, (&line, still, parting), handed[1])
+            self.follow_fibres(law, points, &ended, handed[1])
         } else {
-            self.share_friction(law, points, &self.limits(law, points, (still, parting)), handed);
+            self.share_friction(law, points, &self.limits(law, points, &ended), handed);
             stored + friction[1] - self.friction_borne(law, points)[1]
         };
         // What the next step takes them to bear before it knows better.

@@ -41,7 +41,7 @@ impl Solver {
 
     /// Solves a step to `tolerance` [m/s], or leaves `enough` [m/s] where it does not come nearer. `v` holds a guess on entry, contacts the
     /// impulses of before. What is rather taken in two halves (`halves`) is left sooner where it stalls. Contacts open too far to be struck are left out; if some close
-    /// all the same, it is solved once more with those, from the same guess.
+    /// all the same, it is solved again with those, from the same guess, until none does.
     pub fn solve(
         &mut self,
         mass: &[Triple],

@@ -121,11 +121,11 @@ impl Case {
             let as_given = base.filter(|record| !record.sized);
             let unit = "motion.base: the unit of the record";
             let doubted = |record: &&Record| odd_unit(unit, "its unit", &record.history);
-            let odd = as_given.and_then(|record| Some((doubted(&record)?, record)));
-            if let Some((_, record)) = odd {
-                prepared.model.warnings.retain(|w| !is_of_peak(w, &record.history));
+            let odd = as_given.and_then(|record| doubted(&record));
+            if odd.is_some() {
+                prepared.model.warnings.retain(|w| !is_of_peak(w));
             }
-            let odd = odd.map(|(text, _)| Warning::new(WarningKind::UnlikelyRecord, text));
+            let odd = odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text));
             let last = prepared.model.warnings.len().saturating_sub(1);
             prepared.model.warnings.splice(last..last, odd);
             let warnings = prepared.model.warnings.iter();

@@ -164,7 +164,7 @@ def test_a_motion_that_no_result_holds_is_told(planar: Wall, quake: Record, tmp_
 def test_arrays_are_doubted_as_files_are(planar: Wall, quake: Record, tmp_path: Path) -> None:
     """An acceleration in cm/s² that was taken for m/s² and drifts, over a run that cuts it."""
     wrong = quake.scaled(100)
-    kinds = ["record-cut", "drift", "unlikely-record"]
+    kinds = ["record-cut", "drift", "unlikely-peak"]
     of_array = planar.run(base=wrong, duration="50 ms").warnings
     of_file = planar.run(base=wrong.save(tmp_path / "quake.txt"), duration="50 ms").warnings
     told = [warning for warning in of_array if warning.kind != "motion-in-no-file"]

@@ -201,40 +201,80 @@ pub fn of_study(plan: &crate::Plan) -> Result<(Question, Vec<Subject>)> {
     let subjects = (0..plan.points.len()).map(subject).collect::<Result<Vec<_>>>()?;
     for subject in &subjects {
         let objection = objection(&question, subject).map_err(|e| file.of_wall("first-crack", e))?;
-        if let Some(error) = objection {
-            return Err(file.document.locate(error).into());
+        if let Some(objection) = objection {
+            return Err(file.document.locate(objection.error()).into());
         }
     }
     Ok((question, subjects))
 }
 
-/// Why a wall cannot be asked for its bonds.
-pub const UNBONDED: &str = "no joint of this wall is bonded, and `bond` asks for the strength of bonds";
+/// Why the question cannot be asked of a wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Objection {
+    /// Its base is at rest.
+    AtRest,
+    /// It rocks, and no joint opens or slips before.
+    Rocks,
+    /// It has no bonds.
+    Unbonded,
+    /// It has no head joints.
+    NoHeads,
+    /// It has no bed joints.
+    NoBeds,
+}
 
-/// Why the question cannot be asked of this wall; its key is `first-crack.criterion` or `motion`.
+impl Objection {
+    /// The same in words; the key is `first-crack.criterion` or `motion`.
+    pub fn error(self) -> InputError {
+        let (what, key, allowed) = match self {
+            Objection::AtRest => (
+                "there is no motion: the base is at rest, and its motion is what is scaled",
+                "motion",
+                "a `base` motion, or records",
+            ),
+            Objection::Rocks => (
+                "a rocking wall cracks where it lifts off its hinge: no joint opens or slips before",
+                "first-crack.criterion",
+                "`bond`",
+            ),
+            Objection::Unbonded => (
+                "no joint of this wall is bonded, and `bond` asks for the strength of bonds",
+                "first-crack.criterion",
+                "`[joint.bond]` in the wall file, or criterion `opening` or `slip`",
+            ),
+            Objection::NoHeads => {
+                ("this wall has no head joints that could open", "first-crack.criterion", "criterion `bond` or `slip`")
+            }
+            Objection::NoBeds => (
+                "this wall has no bed joints that could slip",
+                "first-crack.criterion",
+                "criterion `bond` or `opening`",
+            ),
+        };
+        InputError::new(what).key(key).allowed(allowed)
+    }
+}
+
+/// Why the question cannot be asked of this wall, if it cannot.
 ///
 /// # Errors
 /// A wall that cannot be laid, a record that cannot be read.
-pub fn objection(question: &Question, subject: &Subject) -> Result<Option<InputError>> {
+pub fn objection(question: &Question, subject: &Subject) -> Result<Option<Objection>> {
     if subject.case.motion.base == Signal::None {
-        let what = "there is no motion: the base is at rest, and its motion is what is scaled";
-        return Ok(Some(InputError::new(what).key("motion").allowed("a `base` motion, or records")));
+        return Ok(Some(Objection::AtRest));
     }
     let model = prepare_case(subject.case.clone(), Path::new(""))?.model;
     if model.rocking().is_some() {
-        let what = "a rocking wall cracks where it lifts off its hinge: no joint opens or slips before";
-        let other = question.rule.criterion != Criterion::Bond;
-        return Ok(other.then(|| InputError::new(what).key("first-crack.criterion").allowed("`bond`")));
+        return Ok((question.rule.criterion != Criterion::Bond).then_some(Objection::Rocks));
     }
     if Limits::of(&model, &question.rule).is_some() {
         return Ok(None);
     }
-    let (what, allowed) = match question.rule.criterion {
-        Criterion::Bond => (UNBONDED, "`[joint.bond]` in the wall file, or criterion `opening` or `slip`"),
-        Criterion::Opening => ("this wall has no head joints that could open", "criterion `bond` or `slip`"),
-        Criterion::Slip => ("this wall has no bed joints that could slip", "criterion `bond` or `opening`"),
-    };
-    Ok(Some(InputError::new(what).key("first-crack.criterion").allowed(allowed)))
+    Ok(Some(match question.rule.criterion {
+        Criterion::Bond => Objection::Unbonded,
+        Criterion::Opening => Objection::NoHeads,
+        Criterion::Slip => Objection::NoBeds,
+    }))
 }
 
 /// The answers for all subjects, in their order; none when the runner was stopped. Asked again, the runs are those of the

@@ -7,7 +7,7 @@ use crate::case::Solver;
 use crate::error::{InputError, Result};
 use crate::keeper::{self, Keeper};
 use crate::model::{Model, System};
-use crate::outcome::{Deepest, RockingOutcome, TieRow};
+use crate::outcome::{Deepest, Falling, RockingOutcome, TieRow};
 use crate::planar_run;
 use crate::record::{Layout, StopReason};
 use crate::rocking_run;
@@ -21,12 +21,14 @@ pub(crate) enum Mechanics<'m> {
     Rocking(Box<rocking_run::Run<'m>>),
 }
 
-/// What a result tells besides the state at a run's end: how panels lean, what ties bore [N], what became of a façade, and what was crushed.
+/// What a result tells besides the state at a run's end: how panels lean, what ties bore [N], what became of a façade, what was crushed, and how
+/// a wall falls.
 pub(crate) struct Ending<'r> {
     pub leans: &'r [Lean],
     pub ties: Vec<TieRow>,
     pub rocking: Option<RockingOutcome>,
     pub deepest: Option<Deepest>,
+    pub falling: Option<Falling>,
 }
 
 impl<'m> Mechanics<'m> {
@@ -172,10 +174,12 @@ impl<'m> Mechanics<'m> {
 
     /// At the end of the run.
     pub fn ending(&self, model: &Model) -> Ending<'_> {
-        let of = |leans, ties| Ending { leans, ties, rocking: None, deepest: None };
+        let of = |leans, ties| Ending { leans, ties, rocking: None, deepest: None, falling: None };
         match self {
             Mechanics::Shear(run) => of(&run.state.leans, Vec::new()),
-            Mechanics::Planar(run) => Ending { deepest: run.deepest(), ..of(&run.state().leans, run.ties(model)) },
+            Mechanics::Planar(run) => {
+                Ending { deepest: run.deepest(), falling: run.falling(), ..of(&run.state().leans, run.ties(model)) }
+            }
             Mechanics::Rocking(run) => Ending { rocking: Some(run.row()), ..of(&run.state().leans, run.ties()) },
         }
     }

@@ -37,6 +37,8 @@ pub struct Outcome {
     pub rocking: Option<RockingOutcome>,
     /// The joint of a planar wall with inertia that was crushed deepest; none where none was, and of a run that is read back from its files.
     pub deepest: Option<Deepest>,
+    /// How a planar wall without inertia was falling when the run ended; none where it was at rest, and of a run that is read back from its files.
+    pub falling: Option<Falling>,
     /// How far its tops went: that of a beam that moves, then those of the panels that have none.
     pub drifts: Vec<DriftRow>,
     /// Energy account at the end.
@@ -97,6 +99,17 @@ pub struct Deepest {
     pub depth: f64,
     /// The most that one step added to that [m]: of one taken in parts their mean.
     pub at_once: f64,
+}
+
+/// How a wall without inertia falls.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Falling {
+    /// Since when it has not come to rest [s].
+    pub since: f64,
+    /// The block that goes farthest.
+    pub block: usize,
+    /// How far it went in the last step [m].
+    pub way: f64,
 }
 
 /// What became of a rocking wall. Numbers that there are not are infinite.

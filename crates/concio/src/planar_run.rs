@@ -14,7 +14,7 @@ use crate::excitation::Excitation;
 use crate::failure::is_down;
 use crate::ground::signal::GroundMotion;
 use crate::model::Model;
-use crate::outcome::{Before, Collapse, Deepest, TieRow, Totals};
+use crate::outcome::{Before, Collapse, Deepest, Falling, TieRow, Totals};
 use crate::planar::{Planar, Pushes, standing};
 use crate::record::{Counters, Energies, Envelopes, Event, EventKind, Layout, Recording, StopReason};
 use crate::state;
@@ -111,6 +111,11 @@ impl Run {
         crushed.filter(|_| !self.bodies.still).max_by(|a, b| a.depth.total_cmp(&b.depth))
     }
 
+    /// How it falls, without inertia, after the last step.
+    pub fn falling(&self) -> Option<Falling> {
+        self.bodies.falling
+    }
+
     /// Pushes a block at its centre from now on [N, N], besides the forces of the wall file.
     pub fn push(&mut self, block: usize, force: [f64; 2]) {
         self.bodies.pushed[block] = force;
@@ -199,6 +204,8 @@ struct Bodies {
     /// Joints that can be crushed, and whether that is told of each.
     crushed: Vec<(Deepest, bool)>,
     ties: Vec<Borne>,
+    /// How the wall falls, without inertia.
+    falling: Option<Falling>,
     /// What pushes each block besides the wall file's forces [N, N], and whether anything pushes at all.
     pushed: Vec<[f64; 2]>,
     pushes: bool,
@@ -220,6 +227,7 @@ struct Kept {
     before: Vec<f64>,
     crushed: Vec<(Deepest, bool)>,
     ties: Vec<Borne>,
+    falling: Option<Falling>,
     pushed: Vec<[f64; 2]>,
     last: Stride,
 }
@@ -339,6 +347,7 @@ impl Bodies {
                 .map(|joint| (Deepest { joint, depth: motion.crushed(joint), at_once: 0.0 }, false))
                 .collect(),
             ties: vec![Borne { force: 0.0, stretch: 0.0, yielded: f64::INFINITY }; planar.system.ties.len()],
+            falling: None,
             pushed: vec![[0.0; 2]; model.wall.blocks.len()],
             pushes: !planar.forces.is_empty(),
             acting: vec![[0.0; 2]; model.wall.blocks.len()],
@@ -396,12 +405,12 @@ impl Bodies {
     fn keep(&self) -> Kept {
         let (origin, before, crushed) = (self.origin.clone(), self.before.clone(), self.crushed.clone());
         let (ties, pushed, last) = (self.ties.clone(), self.pushed.clone(), self.last.clone());
-        Kept { motion: self.motion.keep(), origin, before, crushed, ties, pushed, last }
+        Kept { motion: self.motion.keep(), origin, before, crushed, ties, falling: self.falling, pushed, last }
     }
 
     /// Goes on from what was kept; false where it is not of this wall.
     fn take_up(&mut self, kept: Kept) -> bool {
-        let Kept { motion, origin, before, crushed, ties, pushed, mut last } = kept;
+        let Kept { motion, origin, before, crushed, ties, falling, pushed, mut last } = kept;
         let n = self.a.len();
         let fits = origin.len() == self.origin.len()
             && before.len() == self.before.len()
@@ -417,7 +426,7 @@ impl Bodies {
         if fits {
             self.last = last;
             (self.origin, self.before, self.crushed) = (origin, before, crushed);
-            self.ties = ties;
+            (self.ties, self.falling) = (ties, falling);
             self.pushes |= pushed.iter().any(|force| *force != [0.0; 2]);
             self.pushed = pushed;
         }
@@ -555,6 +564,7 @@ impl Bodies {
         let [level, upright, held] = [account.input - account.upright, account.upright, account.held].map(f64::abs);
         totals.peak_work = totals.peak_work.max(level + upright + held);
         totals.peak_residual = totals.peak_residual.max(state.energies.residual().abs());
+        self.falling = self.fall(model);
         self.cracks(model, state, tell);
         self.crush(state.t, parts, tell);
         if state.totals.collapse.is_none()
@@ -566,6 +576,15 @@ impl Bodies {
                 Some(Collapse { before: Some(Before { residual, steps, unsolved, moving }), ..collapse });
             tell(event);
         }
+    }
+
+    /// How the wall falls after a step that did not end at rest.
+    fn fall(&self, model: &Model) -> Option<Falling> {
+        let (start, end) = (&self.last.start, &self.last.end);
+        let way = |i: usize| (end.z[i] - start.z[i]).hypot(end.vertical[i] - start.vertical[i]);
+        let blocks = (0..model.wall.blocks.len()).filter(|_| self.motion.falls);
+        let (block, way) = blocks.map(|i| (i, way(i))).max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(Falling { since: self.falling.map_or(self.last.began, |falling| falling.since), block, way })
     }
 
     /// How deep joints are crushed after a step that ended at `time` [s] and was taken in so many parts, and that they are, once.

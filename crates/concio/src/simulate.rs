@@ -209,7 +209,7 @@ impl<'m> Simulation<'m> {
     /// The result, with the recording that the caller collected.
     pub fn outcome(self, recording: Recording, stop_reason: StopReason) -> Outcome {
         let Simulation { keeper: Keeper { model, layout, .. }, mechanics } = self;
-        let Ending { leans, ties, rocking, deepest } = mechanics.ending(model);
+        let Ending { leans, ties, rocking, deepest, falling } = mechanics.ending(model);
         let state = mechanics.state();
         let bonds = model.shear.bonds.iter().zip(state.bonds).map(|(bond, state)| BondRow::of(bond, state)).collect();
         let mut envelopes = state.envelopes.clone();
@@ -226,6 +226,7 @@ impl<'m> Simulation<'m> {
             ties,
             rocking,
             deepest,
+            falling,
             layout,
             recording,
             time_reached: state.t,

@@ -57,6 +57,8 @@ kinds! {
     Drift = "drift",
     /// A record whose unit or interval is hardly that of an earthquake.
     UnlikelyRecord = "unlikely-record",
+    /// A peak that no earthquake had, or that no wall feels.
+    UnlikelyPeak = "unlikely-peak",
     /// A factor on a record that is g, as if its unit were still to be converted.
     ScaledByG = "scaled-by-g",
     /// A peak that few earthquakes had.

@@ -16,7 +16,6 @@ use crate::args::Check;
 use crate::draw::wall::{self, Paint, Subject, kind_name, mass};
 use crate::failure::Failure;
 use crate::format::{columns, line, pairs, plain, seconds, si, significant};
-use crate::motion::PUSHES;
 use crate::{files, report};
 
 /// Most blocks of walls whose rest and first period are looked for.
@@ -33,11 +32,8 @@ pub fn check(args: &Check) -> Result<(), Failure> {
     let file = wall_file::read(&args.file)?;
     let prepared = wall_file::prepare(&file)?;
     let model = &prepared.model;
-    let mut motion = wall_file::motion(&file, &prepared)?;
-    if model.planar().is_some() && !planar::is_symmetric(&prepared.case, model) {
-        let pushes = motion.iter_mut().find(|(_, text)| text.starts_with(PUSHES));
-        pushes.into_iter().for_each(|(_, text)| text.push_str("; it is not symmetric: run the other sign too"));
-    }
+    let lopsided = model.planar().is_some() && !planar::is_symmetric(&prepared.case, model);
+    let motion = wall_file::motion(&file, &prepared, lopsided)?;
     crate::warned::warn(&file, &model.warnings);
     if let Some(path) = &args.svg {
         let names = model.joint_names();

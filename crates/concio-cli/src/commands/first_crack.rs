@@ -8,7 +8,7 @@ use concio::case::{self, Case, CaseFile, RecordInput, Signal};
 use concio::quantity::{Length, Time};
 use concio::warning::Warning;
 use concio_study::file::analyses::FirstCrackInput;
-use concio_study::first_crack::{Question, Subject, objection};
+use concio_study::first_crack::{Objection, Question, Subject, objection};
 use concio_study::limits::Criterion;
 use concio_study::warned::Told;
 
@@ -24,11 +24,11 @@ use crate::{motion, stop};
 /// Finds the first crack under each motion.
 pub fn first_crack(args: &FirstCrack) -> Result<ExitCode, Failure> {
     let wall = wall_file::read(&args.file)?;
-    let question = question(args).map_err(|e| as_option(e, &args.file))?;
+    let question = question(args).map_err(as_option)?;
     let subjects = subjects(args, &wall)?;
     for subject in &subjects {
-        if let Some(error) = objection(&question, subject).map_err(|e| wall.locate(e))? {
-            return Err(as_option(error, &args.file).into());
+        if let Some(objection) = objection(&question, subject).map_err(|e| wall.locate(e))? {
+            return Err(objected(objection, &args.file).into());
         }
     }
     let name = args.file.file_stem().unwrap_or(args.file.as_os_str());
@@ -155,23 +155,22 @@ fn whole(path: &Path) -> RecordInput {
     }
 }
 
-/// Keys of a study file are options here; the file is the wall's.
-fn as_option(mut error: InputError, file: &Path) -> InputError {
-    error.key = match error.key.as_deref() {
-        Some("motion") => Some("motion.base".into()),
-        Some(key) => Some(key.replace("first-crack.", "--")),
-        None => None,
-    };
-    match error.key.as_deref() {
-        Some("motion.base") => error.help = Some("name accelerograms with --records".into()),
+/// Keys of a study file are options here.
+fn as_option(mut error: InputError) -> InputError {
+    error.key = error.key.map(|key| key.replace("first-crack.", "--"));
+    error
+}
+
+/// What is wrong with the wall of this file for the question.
+fn objected(objection: Objection, file: &Path) -> InputError {
+    let error = as_option(objection.error());
+    let error = match objection {
+        Objection::AtRest => error.key("motion.base").help("name accelerograms with --records"),
         // Bonds are asked for where nothing is said.
-        Some("--criterion") if error.what.starts_with(concio_study::first_crack::UNBONDED) => {
-            error.key = Some("joint.bond".into());
-            error.allowed =
-                Some("`[joint.bond]` in the wall file, or `--criterion slip` or `--criterion opening`".into());
-        }
-        Some("--criterion") => {}
-        _ => return error,
-    }
+        Objection::Unbonded => error
+            .key("joint.bond")
+            .allowed("`[joint.bond]` in the wall file, or `--criterion slip` or `--criterion opening`"),
+        Objection::Rocks | Objection::NoHeads | Objection::NoBeds => error,
+    };
     error.in_file(file)
 }

@@ -192,7 +192,7 @@ fn rows(
     };
     let mut rows = vec![
         ("load", format!("λ × {load}, to the {}{heads}", side(*towards))),
-        ("λ", format!("{} for associative friction", significant(found.multiplier(), 6))),
+        ("λ", format!("{} for associative friction{}", significant(found.multiplier(), 6), without(&problem.left_out))),
         ("bounds", format!("{lower} by forces, {upper} by a mechanism")),
         ("force", si(found.multiplier() * total, "N")),
         ("without dilation", estimate(&found.non_associative)),
@@ -214,6 +214,11 @@ fn rows(
         rows.push(("joints that open", named(|j| j.opens)));
     }
     rows
+}
+
+/// Of what λ does not know.
+pub(super) fn without(left_out: &[&str]) -> String {
+    if left_out.is_empty() { String::new() } else { format!(", without the {}", left_out.join(" and ")) }
 }
 
 fn side(side: Side) -> &'static str {
@@ -280,6 +285,7 @@ fn result(
         "heads": match args.heads { HeadFriction::AsGiven => "as-given", HeadFriction::Frictionless => "frictionless" },
         "live_load": problem.live.iter().map(|f| f[0]).sum::<f64>(),
         "multiplier": found.multiplier(),
+        "left_out": problem.left_out,
         "bounds": found.bounds,
         "other_way": other,
         "gap": found.gap(),

@@ -10,7 +10,7 @@ use concio_limit::space::{self, ContactKind, ContactMotion, Face, Limit, Problem
 use concio_limit::{CERTIFIED, LimitError, NonAssociative, Problem as Planar, other_strengths};
 use serde_json::{Value, json};
 
-use super::limit::{DRAWING, NAMED, RESULT, estimate, failure, options, without_dilation};
+use super::limit::{DRAWING, NAMED, RESULT, estimate, failure, options, without, without_dilation};
 use super::limit_behind::{self, Behind, NOTHING};
 use super::{Answer, run::refuse_a_file, wall_file};
 use crate::args::{HeadFriction, Limit as Asked, LimitLoad, Side};
@@ -43,6 +43,7 @@ struct Found {
     twisting: usize,
     /// What stands and pulls behind the wall.
     behind: Option<Behind>,
+    left_out: Vec<&'static str>,
     warnings: Vec<String>,
 }
 
@@ -195,6 +196,7 @@ fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Fo
         dilation,
         crushing,
         behind,
+        left_out: planar.left_out.clone(),
         warnings,
     })
 }
@@ -228,7 +230,7 @@ fn rows(args: &Asked, face: Face, found: &Found) -> Vec<(&'static str, String)> 
     let lambda = limit.multiplier();
     let mut rows = vec![
         ("load", format!("λ × {load}, {}{part}", way(face))),
-        ("λ", format!("{} for associative friction{heads}", significant(lambda, 6))),
+        ("λ", format!("{} for associative friction{heads}{}", significant(lambda, 6), without(&found.left_out))),
         ("bounds", bounds(limit)),
     ];
     match &found.smooth {
@@ -353,6 +355,7 @@ fn result(args: &Asked, face: Face, found: &Found) -> Value {
         "out_of_plane": true,
         "load": match args.load { LimitLoad::Body => "body", LimitLoad::Top => "top" },
         "towards": way(face),
+        "left_out": found.left_out,
         "held_below": args.above,
         "even_twist": args.even_twist,
         "live_load": problem.live_load(),

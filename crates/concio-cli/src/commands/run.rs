@@ -40,7 +40,8 @@ pub fn run(args: &Run) -> Result<ExitCode, Failure> {
     let report = report::write(&out, &content)?;
     let stopped = !finished.outcome.stop_reason.is_end();
     // Whether a rocking wall lifts off is a matter of the peak: a wrong unit shows there.
-    let motion = if prepared.model.rocking().is_some() { wall_file::motion(&file, &prepared)? } else { Vec::new() };
+    let motion =
+        if prepared.model.rocking().is_some() { wall_file::motion(&file, &prepared, false)? } else { Vec::new() };
     tell(&finished, &prepared, (&joints, motion), &report)?;
     Ok(if stopped { ExitCode::from(STOPPED) } else { ExitCode::SUCCESS })
 }

@@ -109,7 +109,7 @@ pub fn all(file: &CaseFile, error: Error) -> Failure {
     if found.is_empty() { error.into() } else { Failure::Input(found) }
 }
 
-/// What moves the wall: names and values.
-pub fn motion(file: &CaseFile, prepared: &Prepared) -> Result<Vec<(&'static str, String)>, Failure> {
-    motion::describe(prepared, file.folder())
+/// What moves the wall, which may be `lopsided`: names and values.
+pub fn motion(file: &CaseFile, prepared: &Prepared, lopsided: bool) -> Result<Vec<(&'static str, String)>, Failure> {
+    motion::describe(prepared, file.folder(), lopsided)
 }

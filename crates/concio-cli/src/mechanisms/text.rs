@@ -11,11 +11,12 @@ use crate::format::{columns, fixed, si, significant};
 /// The table, what governs, what is assumed and what the wall cannot have.
 pub fn told(subject: &Subject, all: bool) -> String {
     let survey = subject.survey;
-    let chosen: Vec<&Found> = if all { survey.found.iter().collect() } else { survey.least_of_kinds() };
+    let chosen: Vec<&Found> = if all { survey.found.iter().collect() } else { survey.least_and_worst() };
     let checked = survey.found.iter().any(|f| f.checks.ratio().is_some() || f.checks.damage.is_ok());
     let mut text = columns(&table(&chosen, checked));
     if !all {
-        text.push_str("  the least of each kind; --all prints every hinge level\n");
+        let worst = if chosen.len() > survey.least_of_kinds().len() { ", and the worst check" } else { "" };
+        text.push_str(&format!("  the least of each kind{worst}; --all prints every hinge level\n"));
     }
     text.push('\n');
     if let Some(least) = survey.least() {

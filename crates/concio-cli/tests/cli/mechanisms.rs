@@ -155,7 +155,11 @@ fn the_facade_of_the_guide_gives_all_in_one_folder() {
     ] {
         assert!(told.contains(part), "{part}:\n{told}");
     }
+    // The worst check is that of a higher flap than the least one: it has a row of its own.
+    let rows: Vec<&str> = told.lines().filter(|line| line.starts_with("  flap (OP8) ")).collect();
+    assert!(rows.len() == 2 && rows[0].contains(" 0.00 m ") && rows[1].contains(" 3.75 m "), "{told}");
     let result = desk.json("assessed/mechanisms.json");
+    assert!(rows[1].contains(&format!(" {:.3} ", result["worst_check"]["ratio"].as_f64().expect("a ratio"))), "{told}");
     let found = result["mechanisms"].as_array().expect("mechanisms");
     assert!(found.len() > 60, "{}", found.len());
     let csv = desk.get("assessed/mechanisms.csv");

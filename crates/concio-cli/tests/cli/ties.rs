@@ -1,5 +1,7 @@
 //! Walls with tie rods, run as a user runs them.
 
+use serde_json::Value;
+
 use crate::support::Desk;
 
 /// A block of 5 kN with μ = 0.4 that a push of 0.7 of its weight would move, held by a rod.
@@ -65,13 +67,23 @@ fn check_tells_rods_and_joints() {
     assert_eq!(row("1 "), "1 base -2.000, 0.125 m stone 0.000, 0.125 m 2.000 m 5.000 MN/m 2.000 kN");
     // A base that goes to the left leaves the stone behind to its right; the rod is on its left side alone.
     assert!(text.contains("pushes the wall to the right; it is not symmetric: run the other sign too\n"), "{text}");
-    let both = WALL.replace(
-        "[motion]",
-        "[[tie]]\nfrom = \"base\"\nat = [3, 0.125]\nto = \"stone\"\nto_at = [0.5, 0]\nstiffness = \"5 MN/m\"\n[motion]",
-    );
-    desk.put("tied.toml", both.replace("\"-0.7 g\"", "\"0.7 g\""));
-    let said = desk.concio("check tied.toml").assert().success().get_output().stdout.clone();
-    assert!(String::from_utf8_lossy(&said).contains("pushes the wall to the left\n"));
+    // A rod on either side, of one kind; then the second stiffer, stronger, or slack.
+    let both = |of_second: &str| {
+        let second = format!(
+            "[[tie]]\nfrom = \"base\"\nat = [3, 0.125]\nto = \"stone\"\nto_at = [0.5, 0]\n{of_second}\n[motion]"
+        );
+        desk.put("tied.toml", WALL.replace("[motion]", &second).replace("\"-0.7 g\"", "\"0.7 g\""));
+        let said = desk.concio("check tied.toml").assert().success().get_output().stdout.clone();
+        String::from_utf8_lossy(&said).contains("pushes the wall to the left\n")
+    };
+    assert!(both("stiffness = \"5 MN/m\""));
+    for other in [
+        "stiffness = \"6 MN/m\"",
+        "stiffness = \"5 MN/m\"\nyield_force = \"2 kN\"",
+        "stiffness = \"5 MN/m\"\nslack = \"1 mm\"",
+    ] {
+        assert!(!both(other), "{other}");
+    }
 }
 
 /// A stone alone, two stones side by side, and what makes a push to one side another than one to the other.
@@ -124,6 +136,11 @@ fn limit_analysis_says_that_it_leaves_rods_out() {
     let desk = Desk::new();
     desk.put("tied.toml", WALL);
     let done = desk.concio("limit tied.toml").assert().success();
-    let told = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    let [said, told] =
+        [&done.get_output().stdout, &done.get_output().stderr].map(|s| String::from_utf8_lossy(s).into_owned());
     assert!(told.contains("the ties are left out"), "{told}");
+    assert!(said.contains(" for associative friction, without the ties\n"), "{said}");
+    desk.concio("limit tied.toml --out found").assert().success();
+    let found: Value = serde_json::from_str(&desk.get("found/limit.json")).expect("JSON");
+    assert_eq!(found["left_out"], serde_json::json!(["ties"]));
 }

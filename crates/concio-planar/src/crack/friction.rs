@@ -1,8 +1,51 @@
 //! What a joint bears along where it has no bond: what its points take over from its fibres, and what friction takes.
 
-use super::{BETWEEN_FIBRES, Crack, DRY, POINTS, Worn, between};
+use super::{BETWEEN_FIBRES, Crack, DRY, Ended, POINTS, Worn, between};
 use crate::fibres::{FIBRES, HALF, Lines, Sheared, Stands, above, parts};
 use crate::joint::{Law, Part, Point};
+
+/// Friction at the points of what has cracked, as each slides.
+struct Frictions {
+    /// Where each is, 0 … 1 along the joint, and its μ; no numbers beyond the last.
+    own: [[f64; 2]; DRY],
+    least: f64,
+    largest: f64,
+}
+
+impl Frictions {
+    /// Of points and their μ.
+    fn of(points: impl Iterator<Item = [f64; 2]>) -> Self {
+        let mut found = Frictions { own: [[f64::NAN; 2]; DRY], least: f64::INFINITY, largest: 0.0 };
+        for (own, point) in found.own.iter_mut().zip(points) {
+            *own = point;
+            (found.least, found.largest) = (found.least.min(point[1]), found.largest.max(point[1]));
+        }
+        found
+    }
+
+    /// The one μ of all of them, if it is one.
+    fn alike(&self) -> Option<f64> {
+        (self.least == self.largest).then_some(self.least)
+    }
+
+    /// That of the nearest point.
+    fn at(&self, x: f64) -> f64 {
+        let near = |mu: &&[f64; 2]| (mu[0] - x).abs();
+        let nearest = || self.own.iter().filter(|mu| !mu[0].is_nan()).min_by(|a, b| near(a).total_cmp(&near(b)));
+        self.alike().unwrap_or_else(|| nearest().map_or(0.0, |mu| mu[1]))
+    }
+}
+
+/// A number on the way from one end of the joint to the other.
+fn on_way([from, to]: [f64; 2], x: f64) -> f64 {
+    from + x * (to - from)
+}
+
+/// What presses a part of a joint by its springs, `sprung` [N], less its dashpot of `damping` [N s/m] as it parts at `speed` [m/s], from 0 to `most`. What friction
+/// bore against the dashpots' pressure too would be lost at each step, however short.
+fn less_dashpots(sprung: f64, damping: f64, speed: f64, most: f64) -> f64 {
+    if speed == 0.0 || !(sprung > 0.0) { sprung } else { (sprung - damping * speed).clamp(0.0, most) }
+}
 
 impl Crack {
     /// Takes note of what friction took of one of its points in the step [J].
@@ -13,12 +56,12 @@ impl Crack {
     }
 
     /// Lets what its friction does not hold slide where its points stand as they did; what that takes.
-    pub(super) fn rub(&mut self, law: &Law, points: &mut [Point], how: (&[[f64; 2]; 2], bool, [f64; 2])) -> Worn {
+    pub(super) fn rub(&mut self, law: &Law, points: &mut [Point], ended: &Ended) -> Worn {
         if !(self.fibres.are_there() && self.is_gone()) {
             return Worn::default();
         }
         let [_, stored] = self.friction_borne(law, points);
-        Worn { friction: self.follow_fibres(law, points, how, stored), ..Worn::default() }
+        Worn { friction: self.follow_fibres(law, points, ended, stored), ..Worn::default() }
     }
 
     /// Friction at rest is overcome where all that is pressed slides, and comes back where all of it rests: a joint slides as one.
@@ -38,88 +81,75 @@ impl Crack {
         }
     }
 
-    /// Takes the fibres to where its ends are as far apart as `line` says, and has its points bear what they do; what friction takes of `stored` of the points and
-    /// what fibres stored beyond [J].
-    pub(super) fn follow_fibres(
-        &mut self,
-        law: &Law,
-        points: &mut [Point],
-        (line, still, parting): (&[[f64; 2]; 2], bool, [f64; 2]),
-        stored: f64,
-    ) -> f64 {
-        let (along, before) = (law.breaking_stiffness(), stored + self.fibres.uneven);
+    /// Takes the fibres to where a step has `ended`, and has its points bear what they do; what friction takes of `stored` of the points and what fibres stored
+    /// beyond [J].
+    pub(super) fn follow_fibres(&mut self, law: &Law, points: &mut [Point], ended: &Ended, stored: f64) -> f64 {
+        let before = stored + self.fibres.uneven;
         self.start_and_stop(points);
         // What acts without inertia acts at the end of the step, else in its middle.
-        let was = &self.was;
+        let (line, was, still) = (ended.line, &self.was, ended.still);
         let open = [0, 1].map(|end| if still { line[end][0] } else { 0.5 * (line[end][0] + was[end][0]) });
-        let even = self.crushed.iter().all(|depth| *depth == 0.0);
-        let [closed, begins, hangs] = parts(open.map(|gap| -gap));
-        if even && hangs.len() == FIBRES {
-            self.fibres.hang(hangs);
+        let even = self.is_even();
+        if even && !open.iter().any(|gap| *gap < 0.0) {
+            self.fibres.hang(0..FIBRES);
             (self.fibres.uneven, self.fibres.rubbed) = (0.0, 0.0);
             let dry = self.spots.iter().filter(|spot| spot.part == Part::Dry);
             dry.for_each(|spot| points[spot.point].bearing = 0.0);
             return before;
         }
-        let dry = || self.spots.iter().filter(|spot| spot.part == Part::Dry);
-        let mut mus = [[f64::NAN; 2]; DRY];
-        dry().zip(&mut mus).for_each(|(spot, mu)| {
-            *mu = [spot.at, law.friction.map_or(0.0, |friction| friction.of(points[spot.point].speed, still))];
-        });
-        let numbers = || mus.iter().filter(|mu| !mu[0].is_nan()).map(|mu| mu[1]);
-        let [least, largest] = [numbers().fold(f64::INFINITY, f64::min), numbers().fold(0.0, f64::max)];
-        let mu = |x: f64| {
-            if least == largest {
-                return least;
-            }
-            let near = |mu: &&[f64; 2]| (mu[0] - x).abs();
-            let there = mus.iter().filter(|mu| !mu[0].is_nan());
-            there.min_by(|a, b| near(a).total_cmp(&near(b))).map_or(0.0, |mu| mu[1])
-        };
-        let (stiffness, damping) = (law.normal_stiffness(), law.normal_damping());
-        let last = self.crushed.len().saturating_sub(1) as f64;
-        // What is pressed in beyond that is crushed.
-        let most = law.crushing / stiffness;
-        let Crack { fibres, crushed, shallower, .. } = self;
-        let opens = |x: f64| open[0] + x * (open[1] - open[0]);
-        let deep = |x: f64| crushed.get((x * last).round() as usize).copied().unwrap_or(0.0);
-        let around = |x: f64| {
-            let ends = [(x - HALF).max(0.0), (x + HALF).min(1.0)];
-            // In the middle of a step not all is crushed yet that is by its end.
-            let [pressed, sprung] = above(ends.map(|x| {
-                let before = shallower.get((x * (BETWEEN_FIBRES - 1) as f64).round() as usize);
-                if still { -opens(x) - deep(x) } else { (-opens(x) - before.unwrap_or(&0.0)).min(most) }
-            }));
-            let damped = pressed * damping * (parting[0] + x * (parting[1] - parting[0]));
-            let force = stiffness * sprung;
-            let force = if parting == [0.0; 2] || force == 0.0 { force } else { (force - damped).max(0.0) };
-            Stands { slide: between(line, x)[1], most: mu(x) * force.min(pressed * law.crushing), pressed }
-        };
-        let Sheared { mut whole, mut energy } = if even && least == largest {
-            fibres.hang(hangs);
-            let force = |x: f64| -stiffness * opens(x) - damping * (parting[0] + x * (parting[1] - parting[0]));
-            let [first, last] = [0.0, 1.0].map(force);
-            let slide = [line[0][1], line[1][1] - line[0][1]];
-            let lines = Lines { slide, press: [first, last - first], limit: law.crushing, mu: least };
-            let even = fibres.follow_pressed(along, closed, &lines);
-            even.and(fibres.follow(along, begins, around))
-        } else {
-            fibres.follow(along, 0..FIBRES, around)
-        };
+        let Sheared { mut whole, mut energy } = self.shear_fibres(law, points, ended, (open, even));
         // Friction took this of points that were pressed less in the step than at its end.
-        let rubbed = std::mem::take(&mut fibres.rubbed);
+        let rubbed = std::mem::take(&mut self.fibres.rubbed);
         let most = (before + if still { rubbed } else { 0.0 }).max(0.0);
         if energy > most {
             let part = (most / energy).sqrt();
-            fibres.weaken(part, |x| between(line, x)[1]);
+            self.fibres.weaken(part, |x| between(line, x)[1]);
             (whole, energy) = (part * whole, most);
         }
         // Without inertia nothing swings, whatever the points store.
-        let limits = self.limits(law, points, (still, parting));
+        let limits = self.limits(law, points, ended);
         self.spread(law, points, &limits, [whole, if still { f64::INFINITY } else { energy }]);
         let [_, keeps] = self.friction_borne(law, points);
         self.fibres.uneven = energy - keeps;
         before - energy
+    }
+
+    /// What the fibres bear and store where a step has `ended`, in which the ends of the joint were `open` by so much as forces acted [m]. Of an `even`
+    /// one nothing is crushed.
+    fn shear_fibres(&mut self, law: &Law, points: &[Point], ended: &Ended, (open, even): ([f64; 2], bool)) -> Sheared {
+        let Ended { line, still, parting, shallower } = *ended;
+        let dry = self.spots.iter().filter(|spot| spot.part == Part::Dry);
+        let mu =
+            Frictions::of(dry.map(|spot| {
+                [spot.at, law.friction.map_or(0.0, |friction| friction.of(points[spot.point].speed, still))]
+            }));
+        let (along, stiffness, damping) = (law.breaking_stiffness(), law.normal_stiffness(), law.normal_damping());
+        let last = self.crushed.len().saturating_sub(1) as f64;
+        // What is pressed in beyond that is crushed.
+        let most_sunk = law.crushing / stiffness;
+        let Crack { fibres, crushed, .. } = self;
+        let crushed_at = |x: f64| crushed.get((x * last).round() as usize).copied().unwrap_or(0.0);
+        let around = |x: f64| {
+            let ends = [(x - HALF).max(0.0), (x + HALF).min(1.0)];
+            // In the middle of a step not all is crushed yet that is by its end.
+            let [pressed, sprung] = above(ends.map(|x| {
+                let before =
+                    shallower.and_then(|depths| depths.get((x * (BETWEEN_FIBRES - 1) as f64).round() as usize));
+                let sunk = -on_way(open, x);
+                if still { sunk - crushed_at(x) } else { (sunk - before.unwrap_or(&0.0)).min(most_sunk) }
+            }));
+            let most = pressed * law.crushing;
+            let force = less_dashpots(stiffness * sprung, pressed * damping, on_way(parting, x), most);
+            Stands { slide: between(line, x)[1], most: mu.at(x) * force.min(most), pressed }
+        };
+        let [closed, begins, hangs] = parts(open.map(|gap| -gap));
+        let Some(mu) = mu.alike().filter(|_| even) else { return fibres.follow(along, 0..FIBRES, around) };
+        fibres.hang(hangs);
+        let [first, end] = [0.0, 1.0].map(|x| -stiffness * on_way(open, x) - damping * on_way(parting, x));
+        let slide = [line[0][1], line[1][1] - line[0][1]];
+        let lines = Lines { slide, press: [first, end - first], limit: law.crushing, mu };
+        let pressed = fibres.follow_pressed(along, closed, &lines);
+        pressed.and(fibres.follow(along, begins, around))
     }
 
     /// What has cracked bears along the joint, and what its springs along store [N, J].
@@ -133,21 +163,16 @@ impl Crack {
     }
 
     /// What friction lets each point bear [N].
-    pub(super) fn limits(&self, law: &Law, points: &[Point], (still, parting): (bool, [f64; 2])) -> [f64; POINTS] {
+    pub(super) fn limits(&self, law: &Law, points: &[Point], ended: &Ended) -> [f64; POINTS] {
         let mut limits = [0.0; POINTS];
         let Some(friction) = law.friction else { return limits };
         let (stiffness, damping) = (law.normal_stiffness(), law.normal_damping());
         for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
             let point = &points[spot.point];
             let sprung = spot.share * stiffness * (-point.gap - point.crushed).max(0.0);
-            // What friction bore against the dashpots' pressure too would be lost at each step, however short.
-            let damped = spot.share * damping * (parting[0] + spot.at * (parting[1] - parting[0]));
-            let pressed = if parting == [0.0; 2] || sprung == 0.0 {
-                sprung
-            } else {
-                (sprung - damped).clamp(0.0, (spot.share + spot.edge) * law.crushing)
-            };
-            limits[spot.point] = spot.rubbing * friction.of(point.speed, still) * pressed;
+            let most = (spot.share + spot.edge) * law.crushing;
+            let pressed = less_dashpots(sprung, spot.share * damping, on_way(ended.parting, spot.at), most);
+            limits[spot.point] = spot.rubbing * friction.of(point.speed, ended.still) * pressed;
         }
         limits
     }

@@ -898,6 +898,66 @@ fn a_joint_that_is_crushed_to_and_fro_is_one_of_strips() {
     }
 }
 
+/// A bonded joint that is crushed along c = ℓ/5 under its left end, the rest held by its bond, and sheared off then: what is crushed stays so. The stress is q_c up to c
+/// and falls by s per length beyond, so that N = q_c ℓ − s b²/2 and N e = s (b³/3 − (ℓ/2 − c) b²/2) about the middle, with b = ℓ − c, and the end is crushed by s c/k. Under
+/// its weight alone, with the bond and without, the stone sinks in by u at c and leans by θ on b and on a = u/(s/k − θ) of what is crushed:
+/// W/k = u b − θ b²/2 + u a/2 and W (ℓ/2 − c)/k = u b²/2 − θ b³/3 − u a²/6.
+#[test]
+fn what_is_crushed_stays_crushed_when_the_bond_breaks() {
+    let (k, crushing, weight, tension, cohesion) = (3e10, 150e3, 7.5e3, 50e3, 1e3);
+    let (c, slope, along) = (0.2, 1.4 * crushing, 1e8);
+    let b: f64 = 1.0 - c;
+    let (load, moment) = (crushing - 0.5 * slope * b * b, slope * (b.powi(3) / 3.0 - 0.5 * (0.5 - c) * b * b));
+    let depth = slope * c / k;
+    let lean = (0..50).fold([0.0; 2], |[u, lean], _| {
+        let a: f64 = u / (slope / k - lean);
+        let [[p, q], [r, s]] = [[b + 0.5 * a, 0.5 * b * b], [0.5 * b * b - a * a / 6.0, b.powi(3) / 3.0]];
+        let [force, moment] = [weight / k, (0.5 - c) * weight / k];
+        [(q * moment - s * force) / (q * r - p * s), (p * moment - r * force) / (q * r - p * s)]
+    })[1];
+    for energies in [[0.0; 2], [5.0, 0.02]] {
+        let law = Law {
+            normal: Normal::Springs { both: k, press: 0.0, damping: 0.0 },
+            shear: Shear { stiffness: along, damping: 0.0, series: false },
+            bond: Some(Bond { tension, cohesion, tan_angle: 0.0, energy: energies, residual: 0.0 }),
+            crushing,
+            ..Law::dry(None)
+        };
+        let mut pushed = system(block([1.0, 0.1]), law);
+        pushed.load[0] = [0.0, -weight];
+        pushed.held[0] = [true, false, false];
+        let mut motion = Motion::new(&pushed, Setting { still: true, ..Setting::new(2e-2) });
+        assert!(motion.stand(1e-12, 4000));
+        let go = |motion: &mut Motion, part: f64, held: f64| {
+            motion.apply(0, [0.0, -part * (load - weight), part * moment]);
+            motion.go(2e-2, &|_, _| Forcing { base: [0.0; 2], held });
+        };
+        for n in (0..=100).chain((0..100).rev()) {
+            go(&mut motion, 0.01 * f64::from(n), 0.0);
+        }
+        let close = |found: f64, known: f64, within: f64| {
+            assert!((found / known - 1.0).abs() < within, "{found} for {known}, {energies:?}")
+        };
+        let state = |motion: &Motion| [motion.crushed(0), motion.places[0].angle];
+        let bonded = state(&motion);
+        assert!(!motion.crack(0).expect("a bond").is_gone());
+        close(bonded[0], depth, 0.01);
+        close(bonded[1], lean, 0.01);
+        for _ in 0..100 {
+            go(&mut motion, 0.0, 2e-6);
+        }
+        assert!(motion.crack(0).expect("a bond").is_gone());
+        let broken = state(&motion);
+        assert_eq!(broken[0], bonded[0], "{energies:?}");
+        close(broken[1], lean, 0.01);
+        close(
+            motion.account.bond,
+            0.5 * crushing * depth * c + b * energies[1].max(0.5 * cohesion * cohesion / along),
+            0.02,
+        );
+    }
+}
+
 /// A stone on a joint that is crushed, as half-sines of `pushes` N at its centre rock it to and fro: across and along `k` N/m stiff with dashpots `c` N s/m.
 struct Rocked {
     size: [f64; 2],

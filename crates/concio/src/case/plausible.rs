@@ -689,6 +689,10 @@ fn of_proportions(doubts: &mut Doubts, at: &str, panel: &Panel, facade: bool) {
 
 /// How far a course may end from those beside it, over the length of the reference brick: toothed ends have half of it.
 const BESIDE: f64 = 0.55;
+/// The same where all the others, of so many courses at least, end flush: within so much.
+const FLUSH: f64 = 0.2;
+const FLUSH_COURSES: usize = 5;
+const WITHIN: f64 = 0.05;
 /// Lengths of stones over that of the reference brick, from chips between them to lintels.
 const STONES: [f64; 2] = [0.1, 8.0];
 /// How near a length that is guessed brings the end of its course to those beside it, over the length of the reference brick.
@@ -730,6 +734,8 @@ struct OddCourse {
     beside: Vec<usize>,
     /// Ends of it and of those [m].
     ends: Vec<[f64; 2]>,
+    /// Whether all others end flush.
+    flush: bool,
     /// The brick that makes it so, and its length then [m].
     meant: Option<(usize, f64)>,
 }
@@ -744,8 +750,9 @@ impl OddCourse {
             format!("did you mean bricks[{b}] = \"{} mm\"?", shown(rounded(1e3 * length, 6)))
         });
         let more = if count > 1 { format!(" ({count} courses of this panel do so)") } else { String::new() };
+        let part = if self.flush { "a fifth of a" } else { "half a" };
         format!(
-            "{at}.course[{}] goes {}, and beside it {}: they end more than half a brick of {} m apart{more}; {meant}",
+            "{at}.course[{}] goes {}, and beside it {}: they end more than {part} brick of {} m apart{more}; {meant}",
             self.course,
             from_to(self.ends[0]),
             others.join(" and "),
@@ -755,18 +762,30 @@ impl OddCourse {
 }
 
 /// Courses that end apart from those beside them. A wall may end ruined, on a footing or with a step: the first and the last course, and those of
-/// two, count only where one brick explains it.
+/// two, count only where one brick explains it. So does that between two equal ones of a wall of three: it may be a pattern.
 fn odd_courses(panel: &Panel) -> Vec<OddCourse> {
     let brick = panel.brick.length.si();
     let ends: Vec<[f64; 2]> = panel.course_list.iter().map(|course| course.ends(panel.mortar.head)).collect();
     let odd = |(c, course): (usize, &Course)| {
-        let beside = apart(&ends, c, BESIDE * brick)?;
+        let flush = ends.len() >= FLUSH_COURSES && others_are_flush(&ends, c, WITHIN * brick);
+        let beside = apart(&ends, c, brick * if flush { FLUSH } else { BESIDE })?;
         let meant = slipped(course, ends[c][1] - ends[beside[0]][1], brick);
         let inner = c > 0 && c + 1 < ends.len();
+        let pattern = ends.len() == 3 && panel.course_list[beside[0]] == panel.course_list[beside[1]];
         let ends = std::iter::once(&c).chain(&beside).map(|&k| ends[k]).collect();
-        (inner || meant.is_some()).then_some(OddCourse { course: c, beside, ends, meant })
+        (inner && !pattern || meant.is_some()).then_some(OddCourse { course: c, beside, ends, flush, meant })
     };
     panel.course_list.iter().enumerate().filter_map(odd).collect()
+}
+
+/// Whether all courses but one end together `within` so much [m].
+fn others_are_flush(ends: &[[f64; 2]], course: usize, within: f64) -> bool {
+    [0, 1].into_iter().all(|side| {
+        let others = ends.iter().enumerate().filter(|(k, _)| *k != course).map(|(_, ends)| ends[side]);
+        let [least, most] =
+            others.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], end| [least.min(end), most.max(end)]);
+        most - least <= within
+    })
 }
 
 /// The courses beside one that end together, where it ends more than `far` [m] from both: gables and steps go on from course to course.

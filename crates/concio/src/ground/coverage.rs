@@ -110,7 +110,7 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
                 let record = library.record(input, folder)?;
                 let scale = of_gravity(name, input, &record).map(|text| Warning::new(WarningKind::ScaledByG, text));
                 let unit = in_gravity(name, input, &record).filter(|_| scale.is_none() && hardly_moves);
-                let told_twice = |w: &Warning| unit.is_some() && is_of_peak(w, &record);
+                let told_twice = |w: &Warning| unit.is_some() && w.kind == WarningKind::UnlikelyPeak;
                 let doubted = unit.as_ref().map(|t| Warning::new(WarningKind::UnlikelyRecord, t.clone()));
                 found.extend(scale.or(doubted));
                 if record.displacement.is_none() {
@@ -195,8 +195,9 @@ impl Named<'_> {
         let interval = odd_interval(record).map(|odd| format!("{key}: {odd}"));
         let length = odd_length(record).map(|odd| format!("{key}: {odd}"));
         let rare = if peak.is_none() { beyond(key, record.largest(), most, scales) } else { None };
-        let odd = peak.into_iter().chain(interval).chain(length);
-        drift.into_iter().chain(rare).chain(odd.map(|text| Warning::new(WarningKind::UnlikelyRecord, text))).collect()
+        let odd = interval.into_iter().chain(length).map(|text| Warning::new(WarningKind::UnlikelyRecord, text));
+        let peak = peak.map(|text| Warning::new(WarningKind::UnlikelyPeak, text));
+        drift.into_iter().chain(rare).chain(peak).chain(odd).collect()
     }
 }
 
@@ -344,9 +345,9 @@ pub fn odd_unit(what: &str, remedy: &str, record: &Record) -> Option<String> {
     })
 }
 
-/// Whether a warning is that of a peak that no wall feels, which [`odd_unit`] tells with its reason.
-pub fn is_of_peak(warning: &Warning, record: &Record) -> bool {
-    warning.kind == WarningKind::UnlikelyRecord && odd_peak(record).is_some_and(|odd| warning.contains(&odd))
+/// Whether a warning is that of a peak of the base that no wall feels, which [`odd_unit`] tells with its reason.
+pub fn is_of_peak(warning: &Warning) -> bool {
+    warning.kind == WarningKind::UnlikelyPeak && warning.starts_with("motion.base")
 }
 
 /// [`odd_unit`] of a record that a wall file takes as it is.

@@ -8,7 +8,7 @@ use crate::case::{Beam, JointKind};
 use crate::excitation::Excitation;
 use crate::graph;
 use crate::model::Model;
-use crate::outcome::{Deepest, Outcome};
+use crate::outcome::{Deepest, Falling, Outcome};
 use crate::planar::{Planar, Rest};
 use crate::quantity::shown;
 use crate::record::{Counters, StopReason};
@@ -393,7 +393,10 @@ fn collapsed(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Optio
 
 /// What becomes of a wall that has yet to come to rest or to fall is not seen.
 fn moves_on(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option<String> {
-    planar.filter(|planar| !planar.still && outcome.totals.collapse.is_none())?;
+    let planar = planar.filter(|_| outcome.totals.collapse.is_none())?;
+    if planar.still {
+        return falls_on(model, outcome);
+    }
     let weight = G * model.shear.mass.iter().sum::<f64>();
     let (kinetic, work) = (outcome.energies.kinetic, outcome.totals.peak_input.max(outcome.energies.initial.abs()));
     (kinetic > UNDER_WAY * work && kinetic > NOTHING * weight).then(|| {
@@ -403,6 +406,17 @@ fn moves_on(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option
             100.0 * kinetic / work
         )
     })
+}
+
+/// Without inertia nothing has kinetic energy: what has no rest under its loads goes on from step to step.
+fn falls_on(model: &Model, outcome: &Outcome) -> Option<String> {
+    let Falling { since, block, way } = outcome.falling.filter(|falling| falling.way > NOTHING)?;
+    Some(format!(
+        "the wall is still falling when the run ends: it has not come to rest since t = {since:.4} s, and block {} went by {} mm in the last step. What it bore is its \
+         load until then; a longer motion.duration shows where it ends",
+        model.wall.blocks[block].name,
+        shown(rounded(1e3 * way, 3)),
+    ))
 }
 
 /// Springs keep what they take: where all joints have some, what impacts take is what steps leave out.
@@ -882,6 +896,52 @@ base = {{ tilt = {{ acceleration = {acceleration}, rise = 0.01 }} }}
         assert_eq!(told(0.19 * G, 0.4), None);
         assert!(told(0.3 * G, 0.4).is_some_and(|what| what.contains("run ends: 9") || what.contains("run ends: 100")));
         assert_eq!(told(0.3 * G, 2.5), None);
+    }
+
+    /// The same without inertia, which has no kinetic energy: a stone that leans further and further is told of while it does, and no more when it leans on the next one;
+    /// one that stands is not.
+    #[test]
+    fn a_run_without_inertia_that_ends_while_the_wall_falls_says_so() {
+        let text = |length: f64, duration: f64| {
+            format!(
+                r#"
+model = "planar"
+[[panel]]
+bond = "explicit"
+brick = {{ length = 1.0, height = 0.5, thickness = 0.5, specific_weight = 20e3 }}
+mortar = {{ bed = 0, head = 0 }}
+[[panel.block]]
+id = "a"
+course = 1
+x = 0
+y = 0
+length = {length}
+height = 2.0
+[[panel.block]]
+id = "b"
+course = 1
+x = 0.7
+y = 0
+length = 2.0
+height = 1.0
+[joint]
+bed = {{ law = "rigid" }}
+head = {{ law = "rigid" }}
+friction = {{ law = "coulomb", static = 0.6, dynamic = 0.6, on = "all" }}
+[motion]
+duration = {duration}
+base = {{ tilt = {{ acceleration = "-0.25 g", rise = 5 }} }}
+quasi_static = true
+"#
+            )
+        };
+        let told = |length: f64, duration: f64| of_kind(&text(length, duration), WarningKind::UnderWay);
+        // 0.4 m over 2 m turns over from 0.2 g on, 4 s after the start where 0.25 g come in 5 s.
+        assert_eq!(told(0.4, 3.99), None);
+        let what = told(0.4, 6.0).expect("it falls");
+        assert!(what.contains("since t = 4.0") && what.contains("block a went by"), "{what}");
+        assert_eq!(told(0.4, 12.0), None);
+        assert_eq!(told(0.6, 6.0), None);
     }
 
     /// A stone that rings on its joint after a jerk, told of by steps that do not resolve it and not by those that do, nor where a dashpot takes

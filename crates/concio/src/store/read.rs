@@ -48,6 +48,7 @@ pub fn read(path: &Path) -> Result<StoredRun> {
     let outcome = Outcome {
         rocking: None,
         deepest: None,
+        falling: None,
         recording,
         bonds,
         ties: read_ties(&source)?,

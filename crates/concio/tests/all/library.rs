@@ -114,17 +114,17 @@ fn a_rule_ends_runs_of_a_batch() {
 /// A motion that no file gives is doubted as a record is, and every run of it says that its result does not hold it.
 #[test]
 fn a_motion_of_ones_own_is_doubted_as_records_are() {
-    use concio::warning::WarningKind::{Drift, MotionInNoFile, RecordCut, UnlikelyRecord};
+    use concio::warning::WarningKind::{Drift, MotionInNoFile, RecordCut, UnlikelyPeak};
     let kinds = |peak: f64, duration: f64| -> Vec<_> {
         // Two seconds of a sine whose velocity never turns: it drifts.
         let samples: Vec<f64> = (0..=400).map(|k| peak * (f64::from(k) * 0.01 * std::f64::consts::PI).sin()).collect();
         let wall = CaseFile::of(&stone(duration)).expect("a wall");
         let prepared = prepare_moved(&wall, GroundMotion::sampled(5e-3, &samples).expect("a motion")).expect("a run");
         let kinds = prepared.model.warnings.iter().map(|warning| warning.kind);
-        kinds.filter(|kind| [Drift, MotionInNoFile, RecordCut, UnlikelyRecord].contains(kind)).collect()
+        kinds.filter(|kind| [Drift, MotionInNoFile, RecordCut, UnlikelyPeak].contains(kind)).collect()
     };
     assert_eq!(kinds(3.0, 2.0), [Drift, MotionInNoFile]);
-    assert_eq!(kinds(100.0, 1.0), [RecordCut, Drift, UnlikelyRecord, MotionInNoFile]);
+    assert_eq!(kinds(100.0, 1.0), [RecordCut, Drift, UnlikelyPeak, MotionInNoFile]);
     let wall = CaseFile::of(&stone(1.0)).expect("a wall");
     let still = prepare_moved(&wall, GroundMotion::AtRest).expect("a run");
     assert!(still.model.warnings.iter().all(|warning| warning.kind != MotionInNoFile));

@@ -1152,6 +1152,20 @@ fn slips_in_surveyed_courses_are_told() {
             && found[0].contains("apart (2 courses of this panel do so); look at"),
         "{found:?}"
     );
+    // A third of a brick too short where all others are flush: not of four courses, of ragged ones, or of toothing by half a brick.
+    let short = ("0.42, 0.26, 0.29", "0");
+    let found = told(&[one, two, short, three, one]);
+    let says = "panel[0].course[2] goes from 0 to 1 m, and beside it course[1] from 0 to 1.1 m and course[3] from 0.005 to 1.105 m: they end more than a fifth of a brick of 0.3 m apart; look at its `bricks` and `offset`";
+    assert_eq!(found, [says]);
+    let (ragged, toothed) = (("0.42, 0.26, 0.36", "0"), ("0.42, 0.26, 0.24", "0"));
+    assert_eq!(told(&[one, short, two, three]), [""; 0]);
+    assert_eq!(told(&[one, two, short, ragged, one]), [""; 0]);
+    assert_eq!(told(&[one, toothed, two, toothed, three]), [""; 0]);
+    assert_eq!(told(&[one, two, three, one, short]), [""; 0]);
+    // Short, long and short: a pattern, where no point has slipped.
+    assert_eq!(told(&[("0.4, 0.4", "0"), ("0.3, 0.4, 0.4", "0"), ("0.4, 0.4", "0")]), [""; 0]);
+    let slipped = told(&[("0.4, 0.4", "0"), ("0.4, 4", "0"), ("0.4, 0.4", "0")]);
+    assert!(slipped.len() == 1 && slipped[0].ends_with("did you mean bricks[1] = \"400 mm\"?"), "{slipped:?}");
     // A chip in a course that ends right.
     assert_eq!(
         told(&[one, ("0.25, 0.31, 0.02, 0.475", "0"), three]),

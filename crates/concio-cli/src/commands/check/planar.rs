@@ -202,14 +202,18 @@ pub fn is_symmetric(case: &Case, model: &Model) -> bool {
         return false;
     }
     // The two ends of anything, the first to the left.
-    let both = |x: [f64; 2], own: [f64; 2], mirrored: [f64; 2], stuff: [f64; 2]| {
-        let all = |x: [f64; 2], y: [f64; 2]| [x[0], x[1], y[0], y[1], stuff[0], stuff[1]].map(rounded);
+    let both = |x: [f64; 2], own: [f64; 2], mirrored: [f64; 2], stuff: [f64; 3]| {
+        let [a, b, c] = stuff;
+        let all = |x: [f64; 2], y: [f64; 2]| [x[0], x[1], y[0], y[1], a, b, c].map(rounded);
         (all([x[0] - left, x[1] - left], own), all([right - x[1], right - x[0]], mirrored))
     };
-    let of_blocks = blocks.iter().map(|b| both(b.x, b.y, b.y, [b.thickness, b.specific_weight]));
-    let of_ties = tie_lines(case, &model.wall).into_iter().map(|[x0, y0, x1, y1]| match x0 <= x1 {
-        true => both([x0, x1], [y0, y1], [y1, y0], [0.0; 2]),
-        false => both([x1, x0], [y1, y0], [y0, y1], [0.0; 2]),
+    let of_blocks = blocks.iter().map(|b| both(b.x, b.y, b.y, [b.thickness, b.specific_weight, 0.0]));
+    let of_ties = case.ties.iter().zip(tie_lines(case, &model.wall)).map(|(tie, [x0, y0, x1, y1])| {
+        let stuff = [tie.stiffness.si(), tie.yield_force.map_or(f64::INFINITY, |force| force.si()), tie.slack.si()];
+        match x0 <= x1 {
+            true => both([x0, x1], [y0, y1], [y1, y0], stuff),
+            false => both([x1, x0], [y1, y0], [y0, y1], stuff),
+        }
     });
     let (mut own, mut mirrored): (Vec<_>, Vec<_>) = of_blocks.chain(of_ties).unzip();
     own.sort_unstable();

@@ -196,6 +196,7 @@ fn outcome(size: Size, wall: &Wall, joints: usize) -> Outcome {
     Outcome {
         rocking: None,
         deepest: None,
+        falling: None,
         ties: if size.planar && wall.blocks.len() > 1 { (0..2).map(tie).collect() } else { Vec::new() },
         bonds: (0..layout.bonded).map(bond).collect(),
         drifts: vec![DriftRow {
