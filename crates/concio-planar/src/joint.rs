@@ -522,13 +522,16 @@ impl Law {
         // ρ of what has no spring, both ways by the mass that moves across, or what of that whose weight presses it counts [kg]: along, stiffer ones take more
         // iterations.
         let pressed = point.force[0].max(-(both + press) * (gap + point.crushed));
-        let resists = firm * contact.moved[0].max(if still { 1.0 } else { LOADED } * pressed / G);
+        let loaded = if self.bond.is_some() { 0.0 } else { pressed / G };
+        let resists = firm * contact.moved[0].max(if still { 1.0 } else { LOADED } * loaded);
         match self.normal {
             Normal::Rigid { restitution, .. } => {
                 contact.law[0] = Linear { offset: h * point.force[0], rho: resists };
                 // Open: what is left of the gap may be closed by the end of the step. It rebounds in the next one, with the velocity of before.
                 let left = open(gap, u_n, h);
-                contact.bias = if left > 0.0 && point.approach == 0.0 {
+                // A bond that yields does not pull until nothing is left of that.
+                let holds = self.bond.is_some_and(|bond| bond.tension > 0.0);
+                contact.bias = if left > 0.0 && point.approach == 0.0 && !holds {
                     2.0 * left / h
                 } else {
                     restitution * u_n.min(point.approach).min(0.0)

@@ -366,6 +366,8 @@ pub struct Motion {
     /// Weight of all bodies, and their dead load where that is more [N].
     weight: f64,
     bears: f64,
+    /// Mass over size of a light body: what a bonded rigid joint yields as [kg/m].
+    heft: f64,
     /// What pushes each body besides, at its centre [N, N, N m].
     applied: Vec<Triple>,
     held: Vec<[bool; 3]>,
@@ -458,6 +460,7 @@ impl Motion {
         let far = |p: &Polygon| p.corners.iter().map(|c| c[0].hypot(c[1])).fold(0.0, f64::max);
         let mass: Vec<Triple> = bodies.iter().map(|b| [b.mass, b.mass, b.inertia]).collect();
         let weight = G * bodies.iter().map(|b| b.mass).sum::<f64>();
+        let lightness = rest.iter().zip(bodies).map(|(shape, body)| far(shape) / body.mass).sum::<f64>();
         let mut linked: Vec<_> = system.links.iter().map(|l| in_order(l.a, l.b)).collect();
         linked.sort_unstable();
         let mut motion = Motion {
@@ -513,6 +516,7 @@ impl Motion {
             laws: Laws::new(&system.links, system.other),
             load: system.load.clone(),
             weight,
+            heft: bodies.len() as f64 / lightness,
             bears: system.load.iter().map(|load| -load[1]).sum::<f64>().max(weight),
             applied: vec![[0.0; 3]; bodies.len()],
             held: system.held.clone(),
@@ -883,11 +887,12 @@ impl Motion {
                 normal: ends[0].normal,
             };
             let law = self.laws.of(pair.link);
+            let length = (ends[1].at[0] - ends[0].at[0]).hypot(ends[1].at[1] - ends[0].at[1]);
             if let Some(crack) = &pair.crack {
                 let first = self.contacts.len();
                 for spot in 0..crack.spots().len() {
                     let spot = self.pairs[seat.pair].crack.as_ref().map_or(UNBONDED, |crack| crack.spots()[spot]);
-                    let (contact, owner) = self.contact(seat, spot, &along(spot.at), h, held);
+                    let (contact, owner) = self.contact(seat, spot, (&along(spot.at), length), h, held);
                     self.contacts.push(contact);
                     self.owners.push(owner);
                 }
@@ -897,7 +902,7 @@ impl Motion {
             let (points, device) = (law.points(), law.device);
             for (point, [at, share]) in points.iter().copied().enumerate() {
                 let spot = Spot { point, at, share, weight: share, ..UNBONDED };
-                let (contact, owner) = self.contact(seat, spot, &along(at), h, held);
+                let (contact, owner) = self.contact(seat, spot, (&along(at), length), h, held);
                 self.contacts.push(contact);
                 self.owners.push(owner);
                 if let Some(device) = device {
@@ -908,7 +913,14 @@ impl Motion {
         self.begin_devices(h);
     }
 
-    fn contact(&self, seat: Seat, spot: Spot, touch: &Touch, h: f64, held: [f64; 2]) -> (Contact, Owner) {
+    fn contact(
+        &self,
+        seat: Seat,
+        spot: Spot,
+        (touch, length): (&Touch, f64),
+        h: f64,
+        held: [f64; 2],
+    ) -> (Contact, Owner) {
         let Spot { point, part, share, weight, edge, .. } = spot;
         let pair = &self.pairs[seat.pair];
         let (n, t) = (touch.normal, [-touch.normal[1], touch.normal[0]]);
@@ -948,7 +960,9 @@ impl Motion {
         }
         // What grips does so however little resists.
         let moved = contact.moved;
-        contact.moved = moved.map(|m| m / self.resists);
+        // Forces of a wall whose joints all hold are those of one that yields alike all over.
+        let yields = law.bond.is_some() && !law.is_compliant();
+        contact.moved = if yields { [self.heft * length * share; 2] } else { moved }.map(|m| m / self.resists);
         // In parts of a step a point yields more, and leaves some of its approach: rebounds and (P8) would lose it.
         let whole = !self.setting.still && (law.rebounds() || law.rocking().is_some());
         let firm = self.setting.firm(if whole { h.max(self.setting.step) } else { h });

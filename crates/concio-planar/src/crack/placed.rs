@@ -72,15 +72,16 @@ impl Crack {
             spots.extend([dry(0, 0.5), dry(1, 0.5)]);
             return;
         }
-        let length = place(last) - place(first);
-        let held = |point: usize, node: usize| {
-            let spot = Spot::of(point, Part::Held, [place(node), 0.5 * length]);
+        // Against turning it holds as all of what is held would.
+        let (length, centre) = (place(last) - place(first), 0.5 * (place(first) + place(last)));
+        let held = |point: usize, side: f64| {
+            let spot = Spot::of(point, Part::Held, [centre + side * length / 12f64.sqrt(), 0.5 * length]);
             Spot { weight: 0.5, rubbing: 1.0, ..spot }
         };
         if first > 0 {
             spots.push(dry(0, 0.0));
         }
-        spots.extend([held(0, first), held(1, last)]);
+        spots.extend([held(0, -1.0), held(1, 1.0)]);
         if last < NODES - 1 {
             spots.push(dry(1, 0.0));
         }

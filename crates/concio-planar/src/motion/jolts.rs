@@ -3,12 +3,12 @@
 //! A step moves bodies by the mean of their velocities before and after it, and what acts in it acts until its end. Where such an instant
 //! changes much, its step is taken in parts, so that it comes within a short one.
 
-use super::{Motion, Owner};
+use super::{Motion, Owner, Pull};
 use crate::G;
 use crate::blocks::Triple;
 use crate::contact::Contact;
 use crate::crack::Crack;
-use crate::joint::{Law, Part, Point, RESTING, slides};
+use crate::joint::{Law, Part, Point, RESTING, Start, slides};
 
 /// Part of the energy of motion from which landing counts, and what counts as motion at least, over the velocity that gravity gives in a
 /// step: stones that settle are no landing.
@@ -20,7 +20,7 @@ const SPENT: f64 = 0.01;
 const RINGS: f64 = 5e-3;
 /// How many steps, or parts of steps, ahead it is looked whether a load crushes a joint as a whole: how it swings until then decides how far.
 const NEARS: f64 = 50.0;
-/// What a joint bears before it closes, over all that it takes as it closes and over the energy of motion, from which it counts.
+/// What a joint bears before it closes, over all that it takes as it closes and over the energy of motion, from which it counts; of what a tie does the latter alone.
 const EARLY: f64 = 0.01;
 const EARLY_COUNTS: f64 = 1e-5;
 /// What is crushed of an edge in a whole step, over what its springs are pressed in by where that begins, from which it counts.
@@ -38,10 +38,7 @@ impl Motion {
     /// Whether something happens at an instant of the step of `h` [s], as it was solved, that counts.
     pub(super) fn jolts(&self, h: f64) -> bool {
         !self.setting.still
-            && (self.lands()
-                || self.crushes && self.closes_early(h)
-                || self.sudden && self.lets_go(h)
-                || self.turns_round(h))
+            && (self.lands() || self.closes_early(h) || self.sudden && self.lets_go(h) || self.turns_round(h))
     }
 
     /// Whether so much is lost as rigid joints close in the step that it counts when in it they do.
@@ -75,22 +72,30 @@ impl Motion {
         nears || soon && (self.time < self.rings_until || self.crushes && self.crushes_fast(h))
     }
 
-    /// Whether joints that were crushed bear so much before they close that it counts: what closes in a step bears in all of it, and what that takes crushes
-    /// nothing. Others are not asked: their springs ring in shorter steps.
+    /// Whether joints that were crushed, or slack ties, bear so much before they close that it counts: what closes in a step bears in all of it, and what that takes crushes
+    /// nothing and pulls too soon. Other joints are not asked: their springs ring in shorter steps.
     fn closes_early(&self, h: f64) -> bool {
         let crushing = |(_, owner): &(&Contact, &Owner)| {
             owner.part == Part::Dry && self.pairs[owner.pair].crack.as_ref().is_some_and(Crack::is_crushed)
         };
-        let took = |(contact, owner): (&Contact, &Owner)| {
-            let open = owner.start.gap + self.pairs[owner.pair].points[owner.point].crushed;
-            let way = -0.5 * h * (owner.start.velocity[0] + contact.velocity(&self.after)[0]);
+        let took = |contact: &Contact, start: &Start, crushed: f64| {
+            let way = -0.5 * h * (start.velocity[0] + contact.velocity(&self.after)[0]);
             let force = contact.impulse[0] / h;
-            [force * open.min(way).max(0.0), (force * way).max(0.0)]
+            [force * (start.gap + crushed).min(way).max(0.0), (force * way).max(0.0)]
         };
-        let contacts = self.contacts.iter().zip(&self.owners);
-        let [early, all] = contacts.filter(crushing).map(took).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
-        let motion = self.energy_of_motion(SETTLES * self.setting.step);
-        early > EARLY * all && early > EARLY_COUNTS * motion
+        let counts = |early: f64| early > EARLY_COUNTS * self.energy_of_motion(SETTLES * self.setting.step);
+        let sum = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
+        let (joints, ties) = self.contacts.split_at(self.owners.len());
+        let of_joint = |(contact, owner): (&Contact, &Owner)| {
+            took(contact, &owner.start, self.pairs[owner.pair].points[owner.point].crushed)
+        };
+        let of_tie = |(contact, pull): (&Contact, &Pull)| took(contact, &pull.start, self.yielded(pull));
+        let [early, _] = ties.iter().zip(&self.pulls).map(of_tie).fold([0.0; 2], sum);
+        if counts(early) || !self.crushes {
+            return counts(early);
+        }
+        let [early, all] = joints.iter().zip(&self.owners).filter(crushing).map(of_joint).fold([0.0; 2], sum);
+        early > EARLY * all && counts(early)
     }
 
     /// Whether the edge of some joint is crushed so fast in a step of `h` [s] that it counts how what bears there changes meanwhile.

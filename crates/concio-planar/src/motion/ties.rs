@@ -19,7 +19,7 @@ pub(super) struct Rod {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pull {
     rod: usize,
-    start: Start,
+    pub(super) start: Start,
     /// Unit vector from its second end to the first, in the middle of the step.
     line: [f64; 2],
     /// As of [`Owner`].
@@ -89,6 +89,11 @@ impl Motion {
             self.account.device += works.bond;
             self.pull -= contact.impulse[0] * pull.lever / h;
         }
+    }
+
+    /// By how much a tie has yielded [m].
+    pub(super) fn yielded(&self, pull: &Pull) -> f64 {
+        self.strains[pull.rod].yielded()
     }
 
     /// The ties and what has become of them.

@@ -358,6 +358,48 @@ step = {step}
     }
 }
 
+/// A running bond whose rigid joints all hold is one that yields alike all over: leant, it first cracks where one on stiff springs does, however long the steps, and at rest each
+/// bed joint bears its part of the weight.
+#[test]
+fn bonded_rigid_joints_bear_what_stiff_springs_do() {
+    let leant = |law: &str, step: f64| {
+        let wall = format!(
+            r#"model = "planar"
+[[panel]]
+bond = "running"
+courses = 6
+bricks = 3
+brick = {{ length = 0.4, height = 0.2, thickness = 0.3, specific_weight = 22e3 }}
+mortar = {{ bed = 0, head = 0 }}
+[joint]
+bed = {{ {law} }}
+head = {{ {law} }}
+friction = {{ law = "coulomb", static = 0.6, on = "all" }}
+bond = {{ tensile_strength = "20 kPa", cohesion = "40 kPa", friction_angle = "30 deg" }}
+[motion]
+duration = 0.55
+base = {{ tilt = {{ acceleration = "2 g", rise = "2 s" }} }}
+[output]
+joints = ["base|p1c1b1", "p1c1b1|p1c1b2"]
+[solver]
+step = {step}
+"#
+        );
+        ran(&wall).1
+    };
+    let springs = r#"law = "no-tension", stiffness = "500 N/mm3", rigidity = 1, normal_to_shear = 1"#;
+    let expected = leant(springs, 1e-3).first_crack().expect("a crack").cracked;
+    for step in [1e-3, 1e-4] {
+        let outcome = leant(r#"law = "rigid""#, step);
+        let found = outcome.first_crack().expect("a crack").cracked;
+        let subject = format!("Bonds: running bond of rigid joints leant at 1 g/s in steps of {step} s, first crack");
+        agrees!(subject, "springs of 500 N/mm³", "s", found, expected, 2e-3);
+        // A third of 9.504 kN, and nothing across heads.
+        let rests = |joint: &str| channel(&outcome, &format!("joint/{joint}/pressure"))[0];
+        assert!((rests("base|p1c1b1") / 3168.0 - 1.0).abs() < 1e-3 && rests("p1c1b1|p1c1b2").abs() < 1.0);
+    }
+}
+
 /// Breaking in shear takes G_f^II A under any pressure, and friction μ N takes the place of what the strength c A + N tan φ loses on the way (B4), (B5).
 #[test]
 fn a_full_break_takes_its_energy_under_any_pressure() {
