@@ -592,7 +592,7 @@ impl Crack {
         let apart = [[APART, 0.0]; 2];
         (self.line, self.was) = (apart, apart);
         let zones = self.zones(law, &apart);
-        self.place(law, &apart, &zones, true);
+        self.place(law, &apart, &zones, false);
         for spot in self.spots.iter().filter(|spot| spot.part == Part::Dry) {
             points[spot.point] = Point { crushed: spot.crushed, ..Point::default() };
         }

@@ -154,7 +154,7 @@ impl Crack {
                 }
                 if crushed {
                     // What closes does so as it is there: with a line through all of it an end would bear that is open still.
-                    let gap = match is_open(kind) && !still && !alone {
+                    let gap = match is_open(kind) && !still {
                         true => (between(line, at)[0] + self.deep(at)).max(0.0),
                         false => mean + turned * (gap(at) - mean),
                     };
