@@ -79,6 +79,8 @@ const ENOUGH: f64 = 100.0;
 /// How much deeper than their velocities took them the sides of a joint may overlap, over `REACH`: where a stone that falls comes upon another edge
 /// of its neighbour there would be a spring pressed in by nothing, and energy of nothing. Where they overlap so much less, what the spring had is lost.
 const JUMP: f64 = 3e-6;
+/// The way of a body in a step of a motion over the shortest edge of all beyond which it is taken in parts: plates would fly through each other.
+const THROUGH: f64 = 0.4;
 /// Contact points of a pair that are kept in place: joints whose points move have more.
 const POINTS: usize = 3;
 
@@ -411,6 +413,8 @@ pub struct Motion {
     looked: Vec<Place>,
     reach: Vec<f64>,
     radius: Vec<f64>,
+    /// Shortest edge of all bodies [m].
+    thinnest: f64,
     /// Pairs of bodies in the matrix.
     coupled: Vec<(usize, usize)>,
     /// The pairs in the order of their places in the matrix.
@@ -470,6 +474,7 @@ impl Motion {
             mass,
             polygons: rest.clone(),
             radius: rest.iter().map(far).collect(),
+            thinnest: rest.iter().map(|p| p.shortest).fold(f64::INFINITY, f64::min),
             reach: rest.iter().map(|p| REACH * p.shortest).collect(),
             rest,
             velocities: vec![[0.0; 3]; bodies.len()],
@@ -720,6 +725,9 @@ impl Motion {
         }
         if self.setting.still {
             self.velocities.fill([0.0; 3]);
+        }
+        if halved < HALVINGS && self.fastest() * h > THROUGH * self.thinnest {
+            return false;
         }
         self.resist(h);
         // From rest to twice the mean, as all that moves does without inertia.

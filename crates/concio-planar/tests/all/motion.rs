@@ -346,3 +346,26 @@ fn what_lands_within_a_step_rebounds_with_all_of_its_velocity() {
         }
     }
 }
+
+/// A plate that flies farther in a step than another is thick strikes it all the same: both go on at half of its speed, and it does not end up inside.
+#[test]
+fn a_plate_strikes_another_however_fast_it_is() {
+    let plate = |x: f64| Body::rectangle("plate", [x, x + 0.02], [50.0, 50.5], 25.0);
+    for v in [10.0, 18.0, 40.0, 100.0] {
+        for gap in [0.05, 0.113, 0.2] {
+            let bodies = [plate(0.0), plate(0.02 + gap)];
+            let mut motion = Motion::new(&System::dry(&bodies, 0.5), Setting::new(1e-3));
+            motion.velocities[0][0] = v;
+            for _ in 0..60 {
+                motion.go(1e-3, &|_, _| Forcing::default());
+            }
+            let [first, second] = [0, 1].map(|k| motion.velocities[k][0]);
+            assert!(
+                (first - 0.5 * v).abs() < 1e-3 * v && (second - 0.5 * v).abs() < 1e-3 * v,
+                "{v} {gap}: {first} {second}"
+            );
+            let inside = 0.02 - (motion.places[1].centre[0] - motion.places[0].centre[0]);
+            assert!(inside < 0.004, "{v} {gap}: {inside}");
+        }
+    }
+}
