@@ -10,8 +10,6 @@ use crate::contact::{Contact, Effort};
 
 /// What may be left where it begins, over the tolerance.
 pub(super) const NEAR: f64 = 1e4;
-/// What is left then, over that, before it begins again.
-pub(super) const AGAIN: f64 = 0.1;
 /// Iterations at most. As many is the patience of interior points with what is left already so little that it may stay, and at most in a step that may
 /// be halved.
 pub(super) const MOST: usize = 12;
