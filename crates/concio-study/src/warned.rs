@@ -198,35 +198,42 @@ impl Before {
 pub fn before(all: usize, case: impl Fn(usize) -> Option<Case> + Sync, name: impl Fn(usize) -> String) -> Before {
     let places = spread(all);
     let library = Library::default();
-    let made: Vec<Option<Result<(Vec<Warning>, Option<Followed>), String>>> = places
+    let made: Vec<Option<Made>> = places
         .par_iter()
         .map(|&number| {
             let prepared = prepare_with(case(number)?, Path::new(""), &library).map_err(|e| e.to_string());
-            Some(prepared.map(|p| (Followed::of(&p.model), p.model.warnings)).map(|(followed, told)| (told, followed)))
+            Some(prepared.map(|p| (Followed::of(&p.model), p.model.warnings)))
         })
         .collect();
     let mut before = Before { all, ..Before::default() };
-    let mut first: Option<(usize, Followed)> = None;
+    let mut followed = Vec::new();
     for (number, made) in places.into_iter().zip(made) {
         match made {
-            Some(Ok((warnings, followed))) => {
+            Some(Ok((own, warnings))) => {
                 before.warned.add(|| name(number), &warnings);
-                match (&first, followed) {
-                    (None, Some(own)) => first = Some((number, own)),
-                    (Some((other, one)), Some(own)) if before.gaps.is_empty() && !one.is_like(&own) => before.gaps.push(format!(
-                        "the runs do not follow one mechanism: {} has {one}, {} has {own}, and their peaks are of different bodies; `rocking.mechanism` and \
-                         `rocking.hinge` in the wall file hold to one",
-                        name(*other),
-                        name(number)
-                    )),
-                    _ => {}
-                }
+                followed.extend(own.map(|own| (number, own)));
             }
             Some(Err(cause)) => before.lost.push((name(number), cause)),
             None => {}
         }
     }
+    before.gaps.extend(unlike(&followed, name));
     before
+}
+
+/// What is told of a run that was made ready, and what rocks in it; or why it cannot be.
+type Made = Result<(Option<Followed>, Vec<Warning>), String>;
+
+/// Says of runs, each with its number, that not all of them follow the mechanism of the first.
+fn unlike(followed: &[(usize, Followed)], name: impl Fn(usize) -> String) -> Option<String> {
+    let (first, one) = followed.first()?;
+    let (second, other) = followed.iter().find(|(_, own)| !one.is_like(own))?;
+    Some(format!(
+        "the runs do not follow one mechanism: {} has {one}, {} has {other}, and their peaks are of different bodies; `rocking.mechanism` and `rocking.hinge` in the wall \
+         file hold to one",
+        name(*first),
+        name(*second)
+    ))
 }
 
 /// What rocks in a run.

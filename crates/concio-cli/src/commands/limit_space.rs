@@ -405,8 +405,8 @@ mod tests {
         for (alpha, lambda, bounds, told) in [
             (0.5, 0.5, [0.5, 0.5], "equal to λ"),
             (0.228088, 0.228207, [0.228044, 0.228371], "between the bounds of λ"),
-            (0.55, 0.5, [0.5, 0.5], "10.00 % above λ: the blocks find a lower one"),
-            (0.45, 0.5, [0.49, 0.51], "10.00 % below λ, which is no better known then"),
+            (0.625, 0.5, [0.5, 0.5], "25.0 % above λ: the blocks find a lower one"),
+            (0.375, 0.5, [0.49, 0.51], "25.0 % below λ, which is no better known then"),
             (0.45, 0.0, [0.0, 0.0], "λ is 0"),
         ] {
             assert_eq!(beside(alpha, lambda, bounds), told, "{alpha} beside {lambda}");
