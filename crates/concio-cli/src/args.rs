@@ -739,7 +739,7 @@ pub enum CrackCriterion {
 /// and fixed. Floors, ties, side walls and gable of the table `out_of_plane` stand and pull behind it. Told beside λ is
 /// whether the multipliers of `concio mechanisms` are high or low.
 ///
-/// Exit status 1 if the bounds are more than 1e-4 of λ apart.
+/// Exit status 1 if the bounds of λ are more than 1e-4 of it apart; those of smooth heads are told.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:

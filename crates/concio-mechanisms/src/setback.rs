@@ -45,6 +45,12 @@ impl Crushing {
         }
     }
 
+    /// The force N [N] along a wall of thickness t [m], through hinges of length L [m] at both of its faces, whose moment N (t − 2a) is largest: a
+    /// is t/4 then, and more force crushes more of the lever than it brings. Without end where nothing crushes.
+    pub fn best_force(self, length: f64, thickness: f64) -> f64 {
+        0.25 * thickness / self.setback(1.0, length)
+    }
+
     /// Whether crushing is left out, so that the code asks for the confidence factor of LC1.
     pub fn is_left_out(self) -> bool {
         self == Crushing::Rigid

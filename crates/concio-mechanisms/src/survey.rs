@@ -787,7 +787,7 @@ impl Making<'_> {
     }
 
     fn strip(&self, survey: &mut Survey) {
-        let Some([from, thrust, span, friction]) = self.wall.strip else {
+        let Some([from, given, span, friction]) = self.wall.strip else {
             let why = "the thrust at which its abutments give way is not given (out_of_plane.strip)";
             survey.without.push((Kind::HorizontalArch, why.into()));
             return;
@@ -805,10 +805,13 @@ impl Making<'_> {
         };
         let pushes: f64 = moves().map(|(f, _)| f.load + f.pushing).sum();
         let outwards: f64 = moves().map(|(f, _)| f.thrust).sum();
+        // The abutments bear up to their thrust: an arch that crushes takes no more of it than is best.
+        let best = wall.crushing.best_force(wall.top - from, wall.masonry.thickness);
+        let thrust = given.min(best);
         // (OP2) under the thrust, over the height of the strip: at midspan on the inner face, at the abutments on the outer one.
         let setback = wall.crushing.setback(thrust, wall.top - from);
         let arch = HorizontalArch {
-            thickness: (wall.masonry.thickness - 2.0 * setback).max(1e-9 * wall.masonry.thickness),
+            thickness: wall.masonry.thickness - 2.0 * setback,
             spans: [0.5 * span; 2],
             weight: own.weight / wall.length(),
             thrust,
@@ -821,11 +824,21 @@ impl Making<'_> {
         let level = 0.5 * (from + wall.top);
         let checks = self.checks(Kind::HorizontalArch, &pushover, level, None, Vibrates::Unknown);
         let left = wall.extent[0] + 0.5 * (wall.length() - span);
-        let notes = vec![
+        let mut notes = vec![
             "weight, floors and their thrust taken as uniform along the strip; floors that hold the wall push nothing"
                 .into(),
             "H_r is what the file gives: check the side wall in its plane with `concio limit`".into(),
         ];
+        if given > best {
+            notes.push(format!(
+                "the abutments bear {:.1} kN, and the arch takes {:.1} kN of it: with more its masonry would crush, and it would bear less",
+                1e-3 * given,
+                1e-3 * best
+            ));
+        }
+        if pushover.multiplier <= 0.0 {
+            notes.push(FALLS.into());
+        }
         survey.found.push(Found {
             kind: Kind::HorizontalArch,
             hinge: from,

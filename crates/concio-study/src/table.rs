@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use concio::files;
 use concio::store::export::cell as text_cell;
+use concio::warning::Warning;
 use concio::{Error, Result};
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType};
@@ -115,9 +116,16 @@ pub fn of_plan(plan: &Plan, rows: &[Option<&Row>]) -> Table {
     table.texts(peak_joint, text(|r| r.peak_joint.clone()));
     table.texts(first_joint, text(|r| r.first_joint.clone()));
     table.texts(cause, text(|r| r.cause.clone()));
-    let count = |r: &&Row| (r.end != End::Failed).then_some(r.warnings.len() as f64);
-    table.numbers(warned, "", rows.iter().map(|r| r.as_ref().and_then(count)).collect());
-    table.texts(kinds, text(|r| crate::warned::kinds(&r.warnings)));
+    // What the files show counts as in all that tells of the study.
+    let all =
+        |(number, row): (usize, &Option<&Row>)| Some([plan.unit_doubts(number), (*row)?.warnings.clone()].concat());
+    let all: Vec<Option<Vec<Warning>>> = rows.iter().enumerate().map(all).collect();
+    let whole = |row: &Option<&Row>| row.is_some_and(|row| row.end != End::Failed);
+    let count = |(row, all): (&Option<&Row>, &Option<Vec<Warning>>)| {
+        all.as_ref().filter(|_| whole(row)).map(|all| all.len() as f64)
+    };
+    table.numbers(warned, "", rows.iter().zip(&all).map(count).collect());
+    table.texts(kinds, all.iter().map(|all| crate::warned::kinds(all.as_ref()?)).collect());
     table.texts(id, text(|r| Some(r.id.clone())));
     table
 }

@@ -1,10 +1,12 @@
 //! What many runs warn of, together: by kind, and by sentence but for its numbers.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::Path;
 
 use concio::case::Case;
 use concio::ground::Library;
+use concio::model::Model;
 use concio::run::prepare_with;
 use concio::warning::{Warning, WarningKind};
 use rayon::prelude::*;
@@ -162,7 +164,7 @@ pub struct Before {
     pub warned: Warned,
     /// Runs that cannot be made ready: what each is called, and why.
     pub lost: Vec<(String, String)>,
-    /// What the design leaves out.
+    /// What the design leaves out, and how runs differ that are to be compared.
     pub gaps: Vec<String>,
     /// Warnings of all runs that are read off the files alone.
     pub read: Warned,
@@ -196,22 +198,68 @@ impl Before {
 pub fn before(all: usize, case: impl Fn(usize) -> Option<Case> + Sync, name: impl Fn(usize) -> String) -> Before {
     let places = spread(all);
     let library = Library::default();
-    let made: Vec<Option<Result<Vec<Warning>, String>>> = places
+    let made: Vec<Option<Made>> = places
         .par_iter()
         .map(|&number| {
-            let prepared = prepare_with(case(number)?, Path::new(""), &library);
-            Some(prepared.map(|p| p.model.warnings).map_err(|e| e.to_string()))
+            let prepared = prepare_with(case(number)?, Path::new(""), &library).map_err(|e| e.to_string());
+            Some(prepared.map(|p| (Followed::of(&p.model), p.model.warnings)))
         })
         .collect();
     let mut before = Before { all, ..Before::default() };
+    let mut followed = Vec::new();
     for (number, made) in places.into_iter().zip(made) {
         match made {
-            Some(Ok(warnings)) => before.warned.add(|| name(number), &warnings),
+            Some(Ok((own, warnings))) => {
+                before.warned.add(|| name(number), &warnings);
+                followed.extend(own.map(|own| (number, own)));
+            }
             Some(Err(cause)) => before.lost.push((name(number), cause)),
             None => {}
         }
     }
+    before.gaps.extend(unlike(&followed, name));
     before
+}
+
+/// What is told of a run that was made ready, and what rocks in it; or why it cannot be.
+type Made = Result<(Option<Followed>, Vec<Warning>), String>;
+
+/// Says of runs, each with its number, that not all of them follow the mechanism of the first.
+fn unlike(followed: &[(usize, Followed)], name: impl Fn(usize) -> String) -> Option<String> {
+    let (first, one) = followed.first()?;
+    let (second, other) = followed.iter().find(|(_, own)| !one.is_like(own))?;
+    Some(format!(
+        "the runs do not follow one mechanism: {} has {one}, {} has {other}, and their peaks are of different bodies; `rocking.mechanism` and `rocking.hinge` in the wall \
+         file hold to one",
+        name(*first),
+        name(*second)
+    ))
+}
+
+/// What rocks in a run.
+struct Followed {
+    mechanism: &'static str,
+    /// Level of its hinge [m], and that over the height of the wall.
+    hinge: [f64; 2],
+}
+
+impl Followed {
+    fn of(model: &Model) -> Option<Followed> {
+        let rocking = model.rocking()?;
+        let top = model.wall.blocks.iter().map(|block| block.y[1]).fold(0.0, f64::max);
+        Some(Followed { mechanism: rocking.kind.what(), hinge: [rocking.hinge, rocking.hinge / top] })
+    }
+
+    /// Walls of other sizes have their hinges at other levels.
+    fn is_like(&self, other: &Followed) -> bool {
+        self.mechanism == other.mechanism && (self.hinge[1] - other.hinge[1]).abs() <= 0.02
+    }
+}
+
+impl fmt::Display for Followed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} with its hinge at {:.2} m", self.mechanism, self.hinge[0])
+    }
 }
 
 /// Numbers of the runs that are looked at: the first, the last and some between.

@@ -714,6 +714,13 @@ const FAR: f64 = 10.0;
 /// Of the ground's acceleration what a floor has at least.
 const STILLER: f64 = 0.7;
 
+/// Distance of a floor's load from the outer face over the thickness of the wall.
+const OUTERMOST: f64 = 0.1;
+/// Base of a gable over the length of its wall: dormers and pediments have more.
+const NARROW: f64 = 0.15;
+/// Height of a gable over its base: that of the steepest Gothic roofs is about 1.
+const STEEP: f64 = 1.5;
+
 /// A guess at a number that was read so many times too large: the first that lies within.
 fn meant(value: f64, unit: &str, factors: &[f64], within: std::ops::RangeInclusive<f64>) -> String {
     let guess = factors.iter().map(|factor| value / factor).find(|guess| within.contains(guess));
@@ -773,6 +780,16 @@ fn doubt_floors(given: &OutOfPlane, wall: &Wall, add: &mut impl FnMut(String)) {
             ));
         }
         let (seat, thickness) = (own.seat_length.map_or(0.0, Length::si), wall.masonry.thickness);
+        let (at, outermost) = (own.at.map_or(0.0, Length::si), OUTERMOST * thickness);
+        // An outer leaf bears its own.
+        if load > 0.0 && at > 0.0 && at < outermost - LEVEL && given.leaves.is_empty() {
+            add(format!(
+                "{key}.at is {} m from the outer face, less than {} m, a tenth of the thickness: beams reach farther into a wall{}",
+                shown(plausible::rounded(at, 6)),
+                metres(outermost),
+                meant(at, "m", &[1e-3, 1e-2, 0.1], outermost..=thickness)
+            ));
+        }
         if seat > thickness + LEVEL {
             add(format!(
                 "{key}.seat_length is {} m, and the wall is {} m thick{}",
@@ -863,10 +880,26 @@ fn doubt_side_walls(given: &OutOfPlane, wall: &Wall, add: &mut impl FnMut(String
     }
 }
 
-/// Thrusts of a gable that are many times what lies there.
+/// Gables that are hardly as wide as a window, or steeper than any roof; thrusts that are many times what lies there.
 fn doubt_gable(given: &OutOfPlane, wall: &Wall, add: &mut impl FnMut(String)) {
     let (Some((gable, press)), Some(own)) = (&wall.gable, &given.gable) else { return };
     let kilo = |force: f64| shown(plausible::rounded(1e-3 * force, 4));
+    if gable.base < NARROW * wall.length() {
+        add(format!(
+            "out_of_plane.gable.base is {} m, {} times the wall's length of {} m; without `base` the gable is as long as the wall",
+            shown(plausible::rounded(gable.base, 6)),
+            shown(plausible::rounded(gable.base / wall.length(), 2)),
+            shown(rounded(wall.length()))
+        ));
+    } else if gable.height > STEEP * gable.base && gable.height <= plausible::HIGHEST_GABLE {
+        add(format!(
+            "out_of_plane.gable.height is {} m, {} times its base of {} m: roofs rise by 0.2 to 1 of it{}",
+            shown(rounded(gable.height)),
+            shown(plausible::rounded(gable.height / gable.base, 2)),
+            shown(rounded(gable.base)),
+            meant(gable.height, "m", &[10.0, 100.0, 1000.0], 0.1 * gable.base..=STEEP * gable.base)
+        ));
+    }
     let weight = gable.weight() + gable.load;
     if *press > 2.0 * weight {
         add(format!(

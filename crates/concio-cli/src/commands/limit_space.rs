@@ -80,11 +80,8 @@ pub fn limit(args: &Asked) -> Result<ExitCode, Failure> {
         let written = args.out.as_deref().map(names).unwrap_or_default();
         files::print(&format!("{title}{}{written}", pairs(&rows(args, face, &found))))?;
     }
-    let both = [("λ", Some(&found.limit)), ("λ of smooth heads", found.smooth.as_ref())];
-    let both = both.into_iter().filter_map(|(name, limit)| Some((name, limit?)));
-    for (name, limit) in both.filter(|(_, limit)| !limit.is_certified()) {
-        let wide = significant(limit.gap(), 2);
-        files::note(&format!("no certificate for {name}: its bounds are {wide} of it apart, {CERTIFIED} are allowed"));
+    if !found.limit.is_certified() {
+        files::note(&uncertified("λ", &found.limit));
     }
     if found.overloads() {
         files::note("no certificate: joints are pressed with more than they bear");
@@ -181,6 +178,8 @@ fn find(args: &Asked, file: &CaseFile, planar: &Planar, face: Face) -> Result<Fo
         }
         smooth => smooth.transpose().map_err(told)?,
     };
+    // The comparison: the exit status is that of λ.
+    warnings.extend(smooth.iter().filter(|s| !s.is_certified()).map(|s| uncertified("λ of smooth heads", s)));
     if limit.multiplier() < NOTHING {
         warnings
             .push("λ is 0: something moves at the least push; joints that do not rub (joint.friction) slide so".into());
@@ -295,18 +294,30 @@ fn rows(args: &Asked, face: Face, found: &Found) -> Vec<(&'static str, String)> 
     rows
 }
 
+/// That bounds are too far apart to prove a multiplier.
+fn uncertified(name: &str, limit: &Limit) -> String {
+    let wide = significant(limit.gap(), 2);
+    format!("no certificate for {name}: its bounds are {wide} of it apart, {CERTIFIED} are allowed")
+}
+
+/// How α₀ lies to λ: it is never below the true one, and between the bounds it says no more than they do.
+fn beside(alpha: f64, lambda: f64, [lower, upper]: [f64; 2]) -> String {
+    let off = (alpha - lambda) / lambda;
+    match off {
+        _ if lambda < NOTHING => "λ is 0".to_string(),
+        off if !off.is_finite() || off.abs() <= CERTIFIED => "equal to λ".to_string(),
+        _ if (lower..=upper).contains(&alpha) => "between the bounds of λ".to_string(),
+        off if off < 0.0 => format!("{} below λ, which is no better known then", percent(-off)),
+        off => format!("{} above λ: the blocks find a lower one", percent(off)),
+    }
+}
+
 fn closed(found: &Found) -> String {
     let Some(turning) = found.turning else {
         return "none: no level joint runs through, or something holds what is above it".into();
     };
-    let (lambda, alpha) = (found.limit.multiplier(), turning.multiplier);
-    let off = (alpha - lambda) / lambda;
-    let than = match off {
-        _ if lambda < NOTHING => "λ is 0".to_string(),
-        off if !off.is_finite() || off.abs() <= CERTIFIED => "equal to λ".to_string(),
-        off => format!("{} above λ: the blocks find a lower one", percent(off)),
-    };
-    let level = significant(turning.level, 4);
+    let (level, alpha) = (significant(turning.level, 4), turning.multiplier);
+    let than = beside(alpha, found.limit.multiplier(), found.limit.bounds);
     format!("α₀ = {}, all above z = {level} m turns as one; {than}", significant(alpha, 6))
 }
 
@@ -382,4 +393,23 @@ fn result(args: &Asked, face: Face, found: &Found) -> Value {
         result.extend(more);
     }
     result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nothing lies by a negative part above another, and within the bounds the blocks find nothing lower.
+    #[test]
+    fn a_closed_form_lies_above_between_or_below() {
+        for (alpha, lambda, bounds, told) in [
+            (0.5, 0.5, [0.5, 0.5], "equal to λ"),
+            (0.228088, 0.228207, [0.228044, 0.228371], "between the bounds of λ"),
+            (0.625, 0.5, [0.5, 0.5], "25.0 % above λ: the blocks find a lower one"),
+            (0.375, 0.5, [0.49, 0.51], "25.0 % below λ, which is no better known then"),
+            (0.45, 0.0, [0.0, 0.0], "λ is 0"),
+        ] {
+            assert_eq!(beside(alpha, lambda, bounds), told, "{alpha} beside {lambda}");
+        }
+    }
 }

@@ -64,6 +64,42 @@ fn a_block_turns_or_slides_across_its_plane() {
     }
 }
 
+/// The exit status is that of λ; that λ of smooth heads is known less well stands in the JSON too.
+#[test]
+fn smooth_heads_without_a_certificate_are_told() {
+    let opening = |x: f64, y: f64, width: f64, height: f64| {
+        format!(
+            "{{ x = \"{x} m\", y = \"{y} m\", width = \"{width} m\", height = \"{height} m\", \
+             lintel = {{ height = \"0.25 m\", bearing = \"0.3 m\" }}, snap = true }}"
+        )
+    };
+    let windows = [(1.0, 0.9, 1.3), (5.9, 0.9, 1.3), (1.0, 4.0, 1.4), (5.9, 4.0, 1.4)];
+    let openings: Vec<String> = std::iter::once(opening(3.4, 0.0, 1.2, 2.25))
+        .chain(windows.map(|(x, y, height)| opening(x, y, 1.1, height)))
+        .collect();
+    let desk = Desk::new();
+    desk.put(
+        "house.toml",
+        format!(
+            "model = \"planar\"\n[[panel]]\nbond = \"running\"\ncourses = 24\nbricks = 16\n\
+             brick = {{ length = \"490 mm\", height = \"240 mm\", thickness = \"450 mm\", specific_weight = \"21 kN/m3\" }}\n\
+             mortar = {{ bed = \"10 mm\", head = \"10 mm\" }}\nopening = [{}]\n\
+             [joint]\nbed = {{ law = \"rigid\" }}\nhead = {{ law = \"rigid\" }}\nfriction = {{ law = \"coulomb\", static = 0.6, on = \"all\" }}\n\
+             [load]\ntop = \"12 kN/m\"\nbeam = {{ mass = \"9 t\" }}\n[motion]\nduration = 1\n",
+            openings.join(", ")
+        ),
+    );
+    let result = found(&desk, "limit house.toml --out-of-plane --json");
+    let smooth = &result["frictionless_heads"];
+    assert_eq!([&result["certified"], &smooth["certified"]], [true, false], "a wall whose λ alone is certified");
+    let told = result["warnings"].as_array().expect("warnings");
+    let part = "no certificate for λ of smooth heads: its bounds are 0.000";
+    assert_eq!(told.iter().filter(|w| w.as_str().is_some_and(|w| w.starts_with(part))).count(), 1, "{told:?}");
+    let done = desk.concio("limit house.toml --out-of-plane").assert().success();
+    let said = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    assert_eq!(said.matches("no certificate").count(), 1, "{said}");
+}
+
 #[test]
 fn what_is_printed_as_json_is_what_is_written() {
     let desk = Desk::new();

@@ -445,6 +445,37 @@ fn a_record_is_followed_with_both_signs() {
     assert!(desk.path("assessed/figures/time-history-overturning-with-side-walls.svg").exists());
 }
 
+/// A record in another unit than it says, and one that shakes the ground up and down.
+#[test]
+fn records_that_are_hardly_meant_are_warned_of() {
+    let desk = Desk::new();
+    desk.put("facade.toml", FACADE);
+    let values: String = (0..300).map(|k| format!("{:.6}\n", 3.0 * (0.2 * f64::from(k)).sin())).collect();
+    desk.put("bare.txt", &values);
+    desk.put("weak.txt", format!("# dt = 0.01 s, units: cm/s2\n{values}"));
+    desk.put("both.txt", format!("# dt = 0.01 s, units: m/s2\nE-W UP\n{}", values.replace('\n', " 1\n")));
+    let said = |line: &str| {
+        let done = desk.concio(&format!("mechanisms facade.toml --record {line}")).assert().success();
+        String::from_utf8_lossy(&done.get_output().stderr).into_owned()
+    };
+    let weak = |what: &str, remedy: &str| {
+        format!(
+            "warning: {what} is \"cm/s2\", in which the record's peak acceleration is 0.00306 g: it hardly moves a wall. Is it 0.306 g? Then {remedy} is \"m/s2\""
+        )
+    };
+    let given = said("bare.txt --dt 0.01 --units cm/s2");
+    assert!(given.contains(&weak("--units", "--units")), "{given}");
+    let named = said("weak.txt");
+    assert!(named.contains(&weak("--record: the unit in the file", "its unit")), "{named}");
+    for fine in ["bare.txt --dt 0.01 --units m/s2", "weak.txt --scale 100", "weak.txt --pga 0.3g"] {
+        let told = said(fine);
+        assert!(!told.contains("hardly moves"), "{fine}: {told}");
+    }
+    let upright = "warning: the component `UP` that shakes the wall to and fro is a vertical one by its name";
+    assert!(said("both.txt --channel UP").contains(upright));
+    assert!(!said("both.txt --channel E-W").contains("vertical one by its name"));
+}
+
 /// Every hinge level has its files; a tie begins at no force, so that the wall sets off below α0.
 #[test]
 fn all_hinges_are_followed_and_ties_begin_at_no_force() {

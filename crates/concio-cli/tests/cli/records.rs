@@ -201,6 +201,9 @@ fn a_wall_names_components_too_and_is_told_of_doubtful_ones() {
     let [out, warned] = check("", 0);
     let part = "motion.base: the record has 3 channels and none is chosen: channel 2 `N-S` is taken, the first horizontal one (`channel = 2`)";
     assert!(out.contains("channel 2 of 3 N-S") && warned.contains(part), "{out}{warned}");
+    // Chosen, and still hardly what shakes a wall to and fro.
+    let upright = "motion.base: the record's chosen component is a vertical one by its name, `U-D`";
+    assert!(check(", channel = \"U-D\"", 0)[1].contains(upright));
     let [_, error] = check(", channel = \"Z\"", 2);
     assert!(error.contains("motion.base.channel") && error.contains("three.txt has no channel `Z`"), "{error}");
     assert!(check(", channel = true", 2)[1].contains("the number of a component, from 1, or its name"));

@@ -193,6 +193,36 @@ fn studies_take_rocking_walls() {
     assert!(said.contains(told) && !said.contains("prevention: its limit"), "{said}");
 }
 
+/// A strong tie lets what is above it turn alone: rows of another body are not to be compared in silence.
+#[test]
+fn a_study_whose_runs_follow_other_hinges_is_told() {
+    let desk = Desk::new();
+    let tied = WALL.replace("[motion]", "[[out_of_plane.anchor]]\nz = 3\nyield_force = \"1 kN\"\n\n[motion]");
+    let rocks =
+        |keys: &str| desk.put("rocks.toml", tied.replace("[motion]", &format!("[rocking]\n{keys}\n\n[motion]")));
+    let said = |vary: &str| {
+        desk.put("study.toml", format!("wall = \"rocks.toml\"\n{vary}"));
+        let done = desk.concio("study check study.toml --out out").assert().success();
+        String::from_utf8_lossy(&done.get_output().stderr).into_owned()
+    };
+    let forces = "[[vary]]\npath = \"out_of_plane.anchor[0].yield_force\"\nvalues = [\"1 kN\", \"2 kN\", \"100 kN\"]\n";
+    let told = "warning: the runs do not follow one mechanism: run 1 (out_of_plane.anchor[0].yield_force = 1 kN) has overturning with its hinge at 0.00 m, \
+                run 3 (out_of_plane.anchor[0].yield_force = 100 kN) has overturning with its hinge at 3.00 m, and their peaks are of different bodies";
+    rocks("mechanism = \"overturning\"");
+    let warned = said(forces);
+    assert!(warned.contains(told) && warned.matches("do not follow").count() == 1, "{warned}");
+    // The same body in another size, hinges that are asked for, and one that is held to.
+    for fine in [
+        "[[vary]]\npath = \"panel[0].brick.height\"\nvalues = [\"0.5 m\", \"0.45 m\"]\n",
+        "[[vary]]\npath = \"rocking.hinge\"\nvalues = [0.0, 1.0]\n",
+    ] {
+        let warned = said(fine);
+        assert!(!warned.contains("do not follow"), "{fine}: {warned}");
+    }
+    rocks("mechanism = \"overturning\"\nhinge = 0");
+    assert!(!said(forces).contains("do not follow"));
+}
+
 /// First cracking is the first lift-off, which needs no run: g α0 over the peak of the motion.
 #[test]
 fn first_cracking_is_the_first_lift_off() {

@@ -113,6 +113,31 @@ fn a_warning_of_every_run_is_told_by_check_run_status_table_and_report() {
     assert_eq!(row["warnings"][0]["kind"], "heavy-beam");
 }
 
+/// What only the way shows in which the wall file writes a number counts in the table as it does in the account.
+#[test]
+fn doubts_of_units_are_in_the_table() {
+    let desk = desk("wall = \"wall.toml\"\n[[vary]]\npath = \"joint.friction.static\"\nvalues = [0.4, 0.6]\n");
+    let base = "base = { synthetic = { seed = 1, pga = 0.3, duration = \"3 s\", dt = \"5 ms\" } }";
+    let shaken: String =
+        WALL.lines().map(|l| if l.starts_with("base = ") { base } else { l }.to_string() + "\n").collect();
+    desk.put("wall.toml", &shaken);
+    let [text, _] = said(&desk, "study run study.toml --out out");
+    holds(&text, &["unlikely-number 2"]);
+    let table = desk.get("out/runs.csv");
+    let heading: Vec<&str> = table.lines().next().expect("a heading").split(',').collect();
+    let place = |name: &str| heading.iter().position(|h| *h == name).unwrap_or_else(|| panic!("{name}: {heading:?}"));
+    for line in table.lines().skip(1) {
+        let cells: Vec<&str> = line.split(',').collect();
+        assert!(cells[place("warning_kinds")].split(' ').any(|kind| kind == "unlikely-number"), "{line}");
+        assert!(
+            cells[place("warnings")]
+                .parse::<usize>()
+                .is_ok_and(|n| n >= cells[place("warning_kinds")].split(' ').count()),
+            "{line}"
+        );
+    }
+}
+
 /// Analyses that choose their runs themselves count too: first cracks, incremental analyses, of a wall file and of a study.
 #[test]
 fn analyses_that_choose_their_runs_count_their_warnings() {

@@ -2,7 +2,7 @@
 
 use concio::case::{Syntax, from_str};
 use concio_mechanisms::side_wall::Overlaps;
-use concio_mechanisms::survey::{Kind, Survey, survey};
+use concio_mechanisms::survey::{Found, Kind, Survey, survey};
 use concio_mechanisms::wall::Wall;
 use concio_verified::agrees;
 
@@ -247,6 +247,34 @@ fn arches_and_gables_are_set_back() {
         expected,
         1e-12
     );
+}
+
+/// Stronger abutments never make an arch weaker: beyond a setback of t/4 it takes no more of their thrust. There α0 is 8 · f_h h t²/4 · ½/(w L²).
+#[test]
+fn an_arch_takes_no_more_thrust_than_is_best_for_it() {
+    let strip = |thrust: f64, block: &str| -> Found {
+        let text = format!(
+            "[out_of_plane]\nstrength = 2e6\npressure = \"{block}\"\n[out_of_plane.strip]\nfrom = 4\nthrust = {thrust:?}\n"
+        );
+        least(&all(&plain(&text)), Kind::HorizontalArch).clone()
+    };
+    let capped = |found: &Found| found.notes.iter().any(|note| note.contains("the arch takes"));
+    // 2a = N/(f_h h), or 4 N/(3 f_h h), with h 2 m, t 0.5 m: best where 2a is 0.25 m.
+    for (block, best) in [("rectangular", 1e6), ("triangular", 0.75e6)] {
+        let thrusts: Vec<f64> = (1..60).map(|k| 5e4 * f64::from(k)).collect();
+        let found: Vec<Found> = thrusts.iter().map(|thrust| strip(*thrust, block)).collect();
+        for (pair, thrust) in found.windows(2).zip(&thrusts) {
+            let [weaker, stronger] = [&pair[0], &pair[1]].map(Found::multiplier);
+            assert!(stronger >= weaker * (1.0 - 1e-12), "{block}, {thrust} N: {weaker} and then {stronger}");
+        }
+        for (found, thrust) in found.iter().zip(&thrusts) {
+            assert_eq!(capped(found), *thrust > best * (1.0 + 1e-9), "{block}, {thrust} N: {:?}", found.notes);
+        }
+        let most = found.last().map_or(f64::NAN, Found::multiplier);
+        let expected = 8.0 * best * 0.25 / (18e3 * 0.5 * 2.0 * 16.0);
+        let what = format!("Mechanisms: horizontal arch between strong abutments, {block} pressure");
+        agrees!(what, "(OP7) with (OP2) by hand", "", most, expected, 1e-9);
+    }
 }
 
 /// A parapet above the roof: damage is held against S_eZ(T_0), T_0 = 6.2 λ L √(γ/(E g)), E = 2.4 k_t h_b.

@@ -11,7 +11,7 @@ use super::{
     Beam, Bond, Brick, Case, Course, FrictionChange, FrictionLaw, HistoryQuantity, JointBond, JointKind, Joints,
     ModelKind, Panel, Scheme, Signal, Solver, SpringChange, TopLoad,
 };
-use crate::quantity::{Stiffness, shown};
+use crate::quantity::{Acceleration, Stiffness, shown};
 use crate::warning::{Warning, WarningKind};
 
 /// What a quantity is expected to be, in SI.
@@ -43,18 +43,25 @@ const PANEL: Expected =
 /// Openings, and where they lie in a panel.
 const OPENING: Expected =
     Expected { limits: [5e-3, 1e3], usual: [0.05, 100.0], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)] };
-/// From the lightest aerated concrete, 2.5 kN/m³, to a block of steel, 78 kN/m³. Densities in kg/m³ fall below.
+/// From the lightest aerated concrete of walls, 3 kN/m³, to a block of steel, 78 kN/m³. Densities in kg/m³ or t/m³ fall below.
 const WEIGHT: Expected = Expected {
-    limits: [2.5e3, 1e5],
+    limits: [3e3, 1e5],
     usual: [5e3, 3.5e4],
     unit: "N/m3",
     slips: &[
         (1e3, "kN/m3", 1e3),
         (crate::G, "kg/m3", crate::G),
+        (10.0, "kg/m3", crate::G),
+        (100.0, "kN/m3", 1e3),
+        (100.0, "kg/m3", crate::G),
+        (0.1, "kN/m3", 1e3),
+        (0.1, "kg/m3", crate::G),
         (1e-3, "kN/m3", 1e3),
         (1e-3 * crate::G, "kg/m3", crate::G),
     ],
 };
+/// Densities of stone in kg/m³ that are no weights of aerated concrete in N/m³ yet.
+const DENSE: f64 = 3.5e3;
 /// Rubber of 1 MPa, 10 mm thick, under half a brick has 5e5 N/m; steel of 1 mm over a metre has some 1e13 N/m.
 const STIFFNESS: Expected = Expected {
     limits: [1e3, 1e13],
@@ -87,9 +94,12 @@ const HELD: Expected = Expected { limits: [1e3, 2e7], usual: [1e4, 1e7], ..TENSI
 /// Masonry bears 0.5 to 50 MPa, adobe less, hard stone laid dry more.
 const COMPRESSION: Expected =
     Expected { limits: [1e4, 5e8], usual: [1e5, 1e8], unit: "Pa", slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3)] };
-/// Masonry as a whole at hinges: granite ashlar of thin joints is the best.
-const MASONRY: Expected =
-    Expected { limits: [1e4, 1e8], slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3), (1e-2, "MPa", 1e6)], ..COMPRESSION };
+/// Masonry as a whole at hinges: granite ashlar of thin joints is the best, rubble of 1 MPa over FC and γ_M the poorest.
+const MASONRY: Expected = Expected {
+    limits: [0.25e6, 1e8],
+    slips: &[(1e6, "MPa", 1e6), (1e3, "kPa", 1e3), (10.0, "MPa", 1e6), (1e-2, "MPa", 1e6)],
+    ..COMPRESSION
+};
 /// Fracture energies: mortar has 1 to 20 N/m when opened, 10 to 1000 N/m when sheared.
 const OPENING_ENERGY: Expected = Expected {
     limits: [1e-4, 1e3],
@@ -144,9 +154,14 @@ const THICKNESS: Expected = Expected {
     unit: "m",
     slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0), (0.1, "m", 1.0), (10.0, "m", 1.0)],
 };
-/// Heights of gables.
-const GABLE: Expected =
-    Expected { limits: [0.2, 30.0], usual: [0.5, 15.0], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)] };
+/// Heights of gables [m].
+pub const HIGHEST_GABLE: f64 = 30.0;
+const GABLE: Expected = Expected {
+    limits: [0.2, HIGHEST_GABLE],
+    usual: [0.5, 15.0],
+    unit: "m",
+    slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)],
+};
 /// Heights of buildings.
 const BUILDING: Expected =
     Expected { limits: [1.0, 200.0], usual: [2.5, 60.0], unit: "m", slips: &[FROM_MM, FROM_CM, (1e3, "m", 1.0)] };
@@ -190,6 +205,8 @@ const SPEED: Expected =
 /// Forces of ties and of what meets a corner or a ridge: from a nail in old timber to a bundle of bars.
 const PULL: Expected =
     Expected { limits: [2e2, 1e7], usual: [1e3, 2e6], unit: "N", slips: &[(1e3, "kN", 1e3), (1e-3, "kN", 1e3)] };
+/// What a ridge beam brings to a gable: a purlin of a shed to the roof of a church.
+const RIDGE: Expected = Expected { limits: [2e2, 1e6], usual: [1e3, 3e5], ..PULL };
 /// Forces at which devices yield or slip: from a clip of some newtons to a damper of a bridge.
 const DEVICE_FORCE: Expected =
     Expected { limits: [5.0, 1e7], usual: [50.0, 1e6], unit: "N", slips: &[(1e3, "kN", 1e3), (1e-3, "N", 1.0)] };
@@ -338,8 +355,16 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane, case: &Case) {
         for (name, value, expected) in given {
             doubts.look(&format!("{key}.{name}"), value.si(), expected);
         }
+        doubts.look_at_sign(&format!("{key}.thrust"), floor.thrust.si(), "N/m");
         doubts.look(&format!("{key}.seat_length"), floor.seat_length.map_or(0.0, |l| l.si()), &SEAT);
         doubts.look_at_friction(&format!("{key}.seat_friction"), floor.seat_friction, LARGEST_FRICTION);
+        if floor.seat_friction > 0.0 && floor.load.si() == 0.0 {
+            let text = format!(
+                "{key}.seat_friction is {} and does nothing: the floor's `load` is 0, and its seat rubs with a part of that; is the load left out?",
+                shown(floor.seat_friction)
+            );
+            doubts.add(WarningKind::IdleKey, text);
+        }
     }
     for (index, anchor) in own.anchors.iter().enumerate() {
         let key = format!("out_of_plane.anchor[{index}]");
@@ -354,14 +379,15 @@ fn of_out_of_plane(doubts: &mut Doubts, own: &OutOfPlane, case: &Case) {
         let at = "out_of_plane.gable";
         doubts.look(&format!("{at}.height"), gable.height.si(), &GABLE);
         doubts.look(&format!("{at}.thickness"), gable.thickness.map_or(0.0, |t| t.si()), &THICKNESS);
-        for (name, force) in [
-            ("ridge_load", gable.ridge_load),
-            ("ridge_push", gable.ridge_push),
-            ("ridge_thrust", gable.ridge_thrust),
-            ("crack_thrust", gable.crack_thrust),
+        for (name, force, expected) in [
+            ("ridge_load", gable.ridge_load, &RIDGE),
+            ("ridge_push", gable.ridge_push, &RIDGE),
+            ("ridge_thrust", gable.ridge_thrust, &RIDGE),
+            ("crack_thrust", gable.crack_thrust, &PULL),
         ] {
-            doubts.look(&format!("{at}.{name}"), force.si(), &PULL);
+            doubts.look(&format!("{at}.{name}"), force.si(), expected);
         }
+        doubts.look_at_sign(&format!("{at}.ridge_thrust"), gable.ridge_thrust.si(), "N");
     }
     if let Some(strip) = &own.strip {
         doubts.look("out_of_plane.strip.thrust", strip.thrust.si(), &PULL);
@@ -458,6 +484,7 @@ fn of_side_walls(doubts: &mut Doubts, all: &[SideWall], longest: f64) {
             for (name, force) in [("load", corner.load), ("push", corner.push), ("thrust", corner.thrust)] {
                 doubts.look(&format!("{key}.corner.{name}"), force.si(), &PULL);
             }
+            doubts.look_at_sign(&format!("{key}.corner.thrust"), corner.thrust.si(), "N");
         }
         let width = |other: &SideWall| 0.5 * (side.thickness.si() + other.thickness.si());
         let apart = |other: &SideWall| (side.x.si() - other.x.si()).abs();
@@ -493,7 +520,13 @@ impl Expected {
         }
         let (than, limit) = if size < low { ("less", low) } else { ("more", high) };
         let within = |v: f64| (self.usual[0]..=self.usual[1]).contains(&v);
-        let guess = self.slips.iter().find(|(factor, ..)| within(size * factor));
+        let fits = || self.slips.iter().filter(|(factor, ..)| within(size * factor));
+        // A weight that is odd in one unit is round in the one that was meant.
+        let round = |&&(factor, _, si): &&(f64, &str, f64)| {
+            let number = rounded(size * factor / si, 6);
+            number == rounded(number, 3)
+        };
+        let guess = fits().find(round).or_else(|| fits().next());
         let meant = guess.map_or(String::new(), |&(factor, unit, si)| {
             let number = shown(rounded(value * factor / si, 6));
             let number = if unit.is_empty() { number } else { format!("\"{number} {unit}\"") };
@@ -521,6 +554,17 @@ impl Doubts {
     /// [`Doubts::look`], with what follows the limit in the message.
     fn look_because(&mut self, key: &str, value: f64, expected: &Expected, why: &str) {
         self.0.extend(expected.doubt(key, value, why));
+    }
+
+    /// Thrusts are positive outwards: one that is not holds the wall.
+    fn look_at_sign(&mut self, key: &str, thrust: f64, unit: &str) {
+        if thrust < 0.0 {
+            let [thrust, meant] = [thrust, -thrust].map(|v| shown(rounded(v, 6)));
+            let text = format!(
+                "{key} is {thrust} {unit}: a thrust is positive outwards, and this one holds the wall upright; did you mean {meant} {unit}?"
+            );
+            self.add(WarningKind::UnlikelyNumber, text);
+        }
     }
 
     /// What stands in a list of `[out_of_plane]` twice, number for number.
@@ -611,11 +655,76 @@ pub fn bare_list(key: &str, all: impl IntoIterator<Item = Option<f64>>) -> Optio
     })
 }
 
-/// Tables of a wall file that [`bare_accelerations`] looks at.
-pub(super) const WITH_ACCELERATIONS: [&str; 2] = ["motion", "out_of_plane"];
+/// Peaks that `motion.base` and others name, of [`ACCELERATIONS`]: that of a test with sines may be as small as one likes.
+const PEAKS: [&str; 2] = ["pga", "synthetic.pga"];
+/// Peaks in a unit of length over time squared that shake no wall [m/s²], and those of the limit state of damage in regions that are hardly shaken.
+const NO_SHAKING: f64 = 0.03 * crate::G;
+const NO_DAMAGE: f64 = 0.015 * crate::G;
+
+/// Tables of a wall file that [`by_units`] looks at.
+pub(super) const WITH_UNITS: [&str; 3] = ["panel", "motion", "out_of_plane"];
+
+/// What only the way in which numbers are written shows: [`bare_accelerations`], [`odd_accelerations`], [`bare_weights`].
+pub(super) fn by_units(tree: &Node) -> Vec<Warning> {
+    [bare_weights(tree), bare_accelerations(tree), odd_accelerations(tree)].concat()
+}
+
+/// The elements of a list, each with its key.
+fn listed<'n>(node: Option<&'n Node>, at: &str) -> Vec<(String, &'n Node)> {
+    let Some(Value::List(all)) = node.map(|node| &node.value) else { return Vec::new() };
+    all.iter().enumerate().map(|(k, node)| (format!("{at}[{k}]"), node)).collect()
+}
+
+/// One sentence for each specific weight without a unit that reads like a density of stone. Smaller ones are beyond the limits of weights.
+fn bare_weights(tree: &Node) -> Vec<Warning> {
+    let mut holders = Vec::new();
+    for (at, panel) in listed(tree.get("panel"), "panel") {
+        holders.extend(panel.get("brick").map(|brick| (format!("{at}.brick"), brick)));
+        holders.extend(listed(panel.get("block"), &format!("{at}.block")));
+        let openings = listed(panel.get("opening"), &format!("{at}.opening"));
+        holders.extend(openings.into_iter().filter_map(|(at, o)| Some((format!("{at}.lintel"), o.get("lintel")?))));
+    }
+    let sides = tree.get("out_of_plane").and_then(|own| own.get("side_wall"));
+    holders.extend(listed(sides, "out_of_plane.side_wall"));
+    let doubt = |(at, holder): (String, &Node)| {
+        let weight = bare(holder.get("specific_weight")?).filter(|w| (WEIGHT.limits[0]..=DENSE).contains(w))?;
+        let weight = shown(weight);
+        let text = format!(
+            "{at}.specific_weight is {weight} N/m3, a number without a unit, as light as aerated concrete; did you mean \"{weight} kg/m3\"?"
+        );
+        Some(Warning::new(WarningKind::UnlikelyNumber, text))
+    };
+    holders.into_iter().filter_map(doubt).collect()
+}
+
+/// One sentence for each peak with a unit of length over time squared that shakes no wall.
+fn odd_accelerations(tree: &Node) -> Vec<Warning> {
+    let ends = ["base", "top", "vertical"].into_iter();
+    let motions = ends.flat_map(|end| PEAKS.map(|key| (format!("motion.{end}.{key}"), NO_SHAKING)));
+    let least = |name: &str| if name == "damage" { NO_DAMAGE } else { NO_SHAKING };
+    let sites = Site::NAMES.map(|name| (format!("out_of_plane.site.{name}.ground_acceleration"), least(name)));
+    let doubt = |(key, least): (String, f64)| {
+        let Value::Text(text) = &key.split('.').try_fold(tree, |node, step| node.get(step))?.value else { return None };
+        let text = text.trim();
+        let peak = Acceleration::parse(text).ok()?.si();
+        let weak = peak > 0.0 && peak < least && text.contains('/');
+        weak.then(|| {
+            let number = text.split(|c: char| c.is_whitespace() || c.is_alphabetic()).next().unwrap_or_default();
+            let number: Option<f64> = number.parse().ok();
+            let guess = number.into_iter().flat_map(|v| [v, 1e-2 * v]).find(|v| (0.05..=2.0).contains(v));
+            let meant = guess.map_or(String::new(), |v| format!("; did you mean \"{} g\"?", shown(rounded(v, 6))));
+            let peak = shown(rounded(peak / crate::G, 3));
+            Warning::new(
+                WarningKind::UnlikelyNumber,
+                format!("{key} is {text}, {peak} g, which shakes hardly a wall{meant}"),
+            )
+        })
+    };
+    motions.chain(sites).filter_map(doubt).collect()
+}
 
 /// One sentence for each peak acceleration and each spectrum written without a unit that reads like a multiple of g.
-pub(super) fn bare_accelerations(tree: &Node) -> Vec<Warning> {
+fn bare_accelerations(tree: &Node) -> Vec<Warning> {
     let motions =
         ["base", "top", "vertical"].into_iter().flat_map(|end| ACCELERATIONS.map(|key| format!("motion.{end}.{key}")));
     let sites = Site::NAMES.map(|name| format!("out_of_plane.site.{name}.ground_acceleration"));

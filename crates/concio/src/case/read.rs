@@ -68,22 +68,26 @@ impl CaseFile {
     pub fn validate(&self) -> Result<()> {
         self.findings().into_iter().next().map_or(Ok(()), |e| Err(e.into()))
     }
-    /// One sentence for each peak acceleration that is written without a unit and so small that it was hardly meant in
-    /// m/s²: `pga = 0.3`. Beside the doubts that [`crate::run::prepare`] has of the values alone, which do not know
+    /// One sentence for each peak acceleration or specific weight whose unit, or that it has none, shows that it was hardly meant so:
+    /// `pga = 0.3`. Beside the doubts that [`crate::run::prepare`] has of the values alone, which do not know
     /// whether there was a unit.
     pub fn unit_doubts(&self) -> Vec<Warning> {
         self.unit_doubts_with(&[])
     }
     /// The same of the wall that some changes make ([`CaseFile::changed`]); those that lead nowhere are passed over.
     pub fn unit_doubts_with(&self, changes: &[(String, serde_json::Value)]) -> Vec<Warning> {
-        // Walls given block by block are large, and nothing of them is looked at.
-        let mut tree = self.document.tree.part(&plausible::WITH_ACCELERATIONS);
-        let key = |path: &str| plausible::WITH_ACCELERATIONS.contains(&path.split('.').next().unwrap_or(path));
-        for (path, value) in changes.iter().filter(|(path, _)| key(path)) {
+        let key = |path: &str| plausible::WITH_UNITS.contains(&path.split(['.', '[']).next().unwrap_or(path));
+        let changes: Vec<_> = changes.iter().filter(|(path, _)| key(path)).collect();
+        // Walls given block by block are large: they are copied only to be changed.
+        if changes.is_empty() {
+            return plausible::by_units(&self.document.tree);
+        }
+        let mut tree = self.document.tree.part(&plausible::WITH_UNITS);
+        for (path, value) in changes {
             // Where it leads nowhere, the wall says so.
             let _ = change::set(&mut tree, path, value);
         }
-        plausible::bare_accelerations(&tree)
+        plausible::by_units(&tree)
     }
     /// Line from 1 of what a doubt begins with the key of ([`plausible::doubts`]); none for other sentences.
     pub fn line_of(&self, doubt: &str) -> Option<usize> {

@@ -104,9 +104,7 @@ pub fn warnings(case: &Case, folder: &Path, duration: f64, library: &Library) ->
     for (name, signal) in signals() {
         match signal {
             Signal::Record(input) => {
-                found.extend(
-                    unchosen(name, input, folder, library)?.map(|t| Warning::new(WarningKind::UnchosenChannel, t)),
-                );
+                found.extend(unchosen(name, input, folder, library)?);
                 let record = library.record(input, folder)?;
                 let scale = of_gravity(name, input, &record).map(|text| Warning::new(WarningKind::ScaledByG, text));
                 let unit = in_gravity(name, input, &record).filter(|_| scale.is_none() && hardly_moves);
@@ -219,7 +217,7 @@ fn most(case: &Case, meant: bool) -> Most {
 }
 
 /// Says which component is taken where none is chosen of several, and whether one of the other direction is taken.
-fn unchosen(name: &str, input: &RecordInput, folder: &Path, library: &Library) -> Result<Option<String>> {
+fn unchosen(name: &str, input: &RecordInput, folder: &Path, library: &Library) -> Result<Option<Warning>> {
     let Component { number, names } = library.component(input, folder)?;
     let label = |number: usize| match names[number - 1].as_str() {
         "" => format!("channel {number}"),
@@ -232,14 +230,23 @@ fn unchosen(name: &str, input: &RecordInput, folder: &Path, library: &Library) -
         let other = (1..=names.len()).find(|k| upright && channel::is_vertical(&names[k - 1]));
         let advice = other.map_or(String::new(), |k| format!("; the vertical one is {} (`channel = {k}`)", label(k)));
         let taken = label(number);
-        return Ok(Some(format!(
+        let text = format!(
             "motion.{name}: the record has {} channels and none is chosen: {taken} is taken, {which} (`channel = {number}`){advice}",
             names.len()
-        )));
+        );
+        return Ok(Some(Warning::new(WarningKind::UnchosenChannel, text)));
     }
-    // What is chosen of several is chosen; a file of one component may be the wrong one.
-    Ok((is_vertical && !upright && names.len() == 1)
-        .then(|| format!("motion.{name}: the record's only component is a vertical one by its name, `{}`", names[0])))
+    let (which, kind) = match names.len() {
+        1 => ("only", WarningKind::UnchosenChannel),
+        _ => ("chosen", WarningKind::UnlikelyRecord),
+    };
+    Ok((is_vertical && !upright).then(|| {
+        let label = &names[number - 1];
+        Warning::new(
+            kind,
+            format!("motion.{name}: the record's {which} component is a vertical one by its name, `{label}`"),
+        )
+    }))
 }
 
 /// A motion is judged as it moves the wall, after `trim`, `baseline` and scaling: `concio record` sees only the file. A

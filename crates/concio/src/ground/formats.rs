@@ -148,7 +148,8 @@ fn agree(source: &Source, record: &Record, options: &TextOptions) -> Result<()> 
     }
 }
 
-/// Bytes as text. Latin-1 letters in station names become replacement characters, which no field minds.
+/// Bytes as text. What is no UTF-8 is taken as Latin-1, in which spreadsheets write `m/s²`; what that does not print becomes a replacement
+/// character, which no field minds.
 fn decode<'a>(bytes: &'a [u8], path: &Path) -> Result<Cow<'a, str>> {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         let error = InputError::new("the file is UTF-16").in_file(path);
@@ -158,7 +159,17 @@ fn decode<'a>(bytes: &'a [u8], path: &Path) -> Result<Cow<'a, str>> {
         let error = InputError::new(format!("the file is {kind}, not text")).in_file(path);
         return Err(error.allowed("text").help("save it as CSV or text").into());
     }
-    Ok(String::from_utf8_lossy(bytes.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(bytes)))
+    let bytes = bytes.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(bytes);
+    if let Ok(text) = std::str::from_utf8(bytes) {
+        return Ok(Cow::Borrowed(text));
+    }
+    let latin = |byte: &u8| if *byte < 0xa0 { char::REPLACEMENT_CHARACTER } else { char::from(*byte) };
+    let mut text = String::with_capacity(bytes.len());
+    for chunk in bytes.utf8_chunks() {
+        text.push_str(chunk.valid());
+        text.extend(chunk.invalid().iter().map(latin));
+    }
+    Ok(Cow::Owned(text))
 }
 
 /// What a file that is not text is, from its first bytes.

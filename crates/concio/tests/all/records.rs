@@ -310,6 +310,18 @@ fn columns_of_text_in_their_spellings() {
     assert_eq!(channels[1].acceleration, [0.02, 0.04]);
 }
 
+/// As spreadsheets write it: Latin-1, every cell in quotes.
+#[test]
+fn text_of_spreadsheets_is_read() {
+    let plain = parse("t [s];a [m/s²]\n0,00;0,5\n0,01;-0,25\n".as_bytes(), Path::new("file"), &TextOptions::default());
+    let latin = parse(b"t [s];a [m/s\xb2]\n0,00;0,5\n0,01;-0,25\n", Path::new("file"), &TextOptions::default());
+    assert_eq!(latin.unwrap()[0].acceleration, plain.unwrap()[0].acceleration);
+    let quoted = read_text("\"t [s]\",\"a [m/s2]\"\n\"0.00\",\"0.5\"\n\"0.01\",\"-0.25\"\n").unwrap();
+    assert_eq!((quoted[0].dt, &quoted[0].acceleration[..]), (0.01, &[0.5, -0.25][..]));
+    let error = refused("t [s],a [m/s2]\n\"0,00\",\"0,5\"\n", &TextOptions::default()).to_string();
+    assert!(error.contains("save the numbers without quotes"), "{error}");
+}
+
 #[test]
 fn what_a_text_file_leaves_unsaid_comes_from_the_options() {
     let text = "0.1\n0.2\n0.3\n";

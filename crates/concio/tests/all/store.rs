@@ -569,6 +569,15 @@ fn result_child() {
     write(&folder.join("result.h5"), &sample(LONG));
 }
 
+/// Not a test: writes an archive into the folder.
+#[cfg(target_os = "linux")]
+#[test]
+#[ignore = "a process that other tests start"]
+fn archive_child() {
+    let Some(folder) = std::env::var_os("CONCIO_JOURNAL").map(PathBuf::from) else { return };
+    export::npz(&stored(sample(LONG)), &folder.join("result.npz")).unwrap();
+}
+
 fn start_child(folder: &Path, name: &str, before: &str) -> Command {
     let mut command = Command::new("sh");
     command.args(["-c", &format!(r#"{before} exec "$0" --exact store::{name} --ignored --nocapture"#)]);
@@ -636,6 +645,21 @@ fn a_full_disk_keeps_the_former_result() {
         assert!(!output.status.success() && said.contains("Err` value") && said.contains("result.h5"), "{said}");
         assert!(hdf5::read(&path).unwrap() == stored(sample(SMALL)));
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "the temporary file is gone");
+    }
+}
+
+/// One sentence tells it: the archive that is given up says nothing of its own.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told_of_an_archive_once() {
+    let folder = tempfile::tempdir().unwrap();
+    for limit in [1, 20, 40] {
+        let before = format!("trap '' XFSZ; ulimit -f {limit};");
+        let output = start_child(folder.path(), "archive_child", &before).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && said.contains("Err` value") && said.contains("result.npz"), "{said}");
+        assert!(!said.contains("ZipWriter"), "{said}");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "the temporary file is gone");
     }
 }
 

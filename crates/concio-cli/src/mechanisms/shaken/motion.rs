@@ -66,7 +66,15 @@ fn of_record(args: &TimeHistory, path: &Path) -> Result<Motion, Failure> {
         seconds(peak.time)
     );
     let mut doubts = across.doubts;
-    let mut warnings = doubted("--record", &across.record, factor, &mut doubts);
+    let mut warnings = across.warnings;
+    warnings.extend(doubted("--record", &across.record, factor, &mut doubts));
+    let [what, remedy] =
+        if args.units.is_some() { ["--units"; 2] } else { ["--record: the unit in the file", "its unit"] };
+    let as_given = args.pga.is_none() && args.scale.is_none();
+    if let Some(odd) = coverage::odd_unit(what, remedy, &across.record).filter(|_| as_given) {
+        warnings.retain(|warning| warning.kind != WarningKind::UnlikelyPeak);
+        warnings.push(Warning::new(WarningKind::UnlikelyRecord, odd));
+    }
     let mut duration = across.record.duration();
     match &vertical {
         Some(up) => {
@@ -98,6 +106,7 @@ struct Taken {
     record: Record,
     words: String,
     doubts: Vec<String>,
+    warnings: Vec<Warning>,
 }
 
 fn taken(args: &TimeHistory, path: &Path, wanted: Option<&RecordChannel>, up: bool) -> Result<Taken, Failure> {
@@ -117,10 +126,11 @@ fn taken(args: &TimeHistory, path: &Path, wanted: Option<&RecordChannel>, up: bo
         (true, None) => upright(&records).map_err(own)?,
         _ => channel::choose(&records, wanted).map_err(own)?,
     };
-    let mut doubts = Vec::new();
+    let (mut doubts, mut warnings) = (Vec::new(), Vec::new());
     let label = &records[place].channel;
     if !up && channel::is_vertical(label) {
-        doubts.push(format!("the component `{label}` that shakes the wall to and fro is a vertical one by its name"));
+        let text = format!("the component `{label}` that shakes the wall to and fro is a vertical one by its name");
+        warnings.push(Warning::new(WarningKind::UnlikelyRecord, text));
     }
     if up && !label.is_empty() && !channel::is_vertical(label) {
         doubts.push(format!("the component `{label}` that shakes the wall up and down is no vertical one by its name"));
@@ -136,7 +146,7 @@ fn taken(args: &TimeHistory, path: &Path, wanted: Option<&RecordChannel>, up: bo
     let words = format!("{name}, channel {} of {} {label}", place + 1, records.len());
     let record = records.swap_remove(place);
     doubts.extend(record.remarks.iter().filter(|remark| !remark.is_doubtful()).map(ToString::to_string));
-    Ok(Taken { words: words.trim_end().into(), record, doubts })
+    Ok(Taken { words: words.trim_end().into(), record, doubts, warnings })
 }
 
 /// The first vertical component, or the only one.

@@ -74,6 +74,9 @@ pub(super) fn table(source: &Source, by_rows: bool) -> Result<Table> {
 
 fn bad_field(source: &Source, line: usize, field: &str) -> InputError {
     let error = not_a_number(source, line, field);
+    if field.contains('"') {
+        return error.help("save the numbers without quotes; with decimal commas, part the columns by semicolons");
+    }
     // `0,5 1,5 2.5`: what a comma parts still holds a blank.
     let commas = source.line(line).contains(',') && !source.line(line).contains(';');
     if commas && field.trim().contains(char::is_whitespace) {
@@ -98,16 +101,22 @@ pub(super) fn is_title(line: &str) -> bool {
 /// Fields of a line, and whether a comma in them is a decimal point; a separator at the end of the line makes no field.
 fn fields(line: &str) -> (Box<dyn Iterator<Item = &str> + '_>, bool) {
     let line = line.trim();
-    let parted = |separator: char| line.strip_suffix(separator).unwrap_or(line).split(separator).map(str::trim);
+    let parted =
+        |separator: char| line.strip_suffix(separator).unwrap_or(line).split(separator).map(str::trim).map(unquoted);
     if line.contains(';') {
         (Box::new(parted(';')), true)
     } else if !line.contains(',') {
-        (Box::new(line.split_whitespace()), false)
+        (Box::new(line.split_whitespace().map(unquoted)), false)
     } else if has_decimal_commas(line) {
         (Box::new(line.split_whitespace()), true)
     } else {
         (Box::new(parted(',')), false)
     }
+}
+
+/// A number without the quotes in which some programs write every cell.
+fn unquoted(field: &str) -> &str {
+    field.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).map_or(field, str::trim)
 }
 
 /// Whether blanks or tabs part two or more numbers with commas in them: `0,01 -0,25`. A comma that parts numbers has a blank behind it

@@ -25,17 +25,24 @@ pub fn npz(run: &StoredRun, path: &Path) -> Result<()> {
     check_lengths(path, &run.wall, &run.joints, &run.outcome)?;
     files::replace(path, |temporary| {
         let file = File::create(temporary).map_err(|e| Error::io(path, e))?;
-        let mut archive = Archive { zip: ZipWriter::new(BufWriter::new(file)) };
-        let filled = fill(&mut archive, run).and_then(|()| archive.zip.finish()?.flush());
-        filled.map_err(|e| Error::io(path, e))
+        let mut archive = Archive { zip: ZipWriter::new(BufWriter::new(&file)) };
+        let done = match fill(&mut archive, run) {
+            Ok(()) => archive.zip.finish().map_err(io::Error::from).and_then(|mut end| end.flush()),
+            Err(error) => {
+                // An archive that is dropped unfinished tries to write its end, and prints that it cannot. The file is closed all the same.
+                std::mem::forget(archive);
+                Err(error)
+            }
+        };
+        done.map_err(|e| Error::io(path, e))
     })
 }
 
-struct Archive {
-    zip: ZipWriter<BufWriter<File>>,
+struct Archive<'f> {
+    zip: ZipWriter<BufWriter<&'f File>>,
 }
 
-impl Archive {
+impl Archive<'_> {
     /// Starts the entry of an array of that many bytes.
     fn start(&mut self, name: &str, bytes: usize) -> io::Result<()> {
         let options = SimpleFileOptions::default()
