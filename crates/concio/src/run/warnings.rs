@@ -366,8 +366,7 @@ fn cracked_at_rest(planar: Option<&Planar>, joints: &[JointRow], outcome: &Outco
     let first = at_rest().next()?;
     let rigid = at_rest().any(|bond| !planar.system.links[bond.joint].law.is_compliant());
     let remedy = if rigid {
-        ". Rigid blocks can share their forces in many ways, and the one found here may strain joints that need not bear anything: give them \
-         springs (`law = \"elastic\"`)"
+        ": rigid joints bear there what springs of one stiffness would. Compare with springs of your own (`law = \"elastic\"`)"
     } else {
         ": the wall has cracks when the motion begins"
     };
