@@ -129,7 +129,7 @@ fn a_rod_that_snaps_taut_within_a_step_takes_nothing() {
             motion.go(1e-3, &|_, _| Forcing::default());
             peak = peak.max(force(&motion));
         }
-        let subject = "Ties: slack rod of ω h = 0.2 that snaps taut anywhere in a step";
+        let subject = format!("Ties: rod of ω h = 0.2 that snaps taut after {slack} m");
         agrees!(format!("{subject}, speed after"), "−v", "m/s", motion.velocities[0][0], -v, 1e-2);
         agrees!(format!("{subject}, peak force"), "v √(k m)", "N", peak, v * (stiffness * MASS).sqrt(), 2e-2);
     }

@@ -370,7 +370,7 @@ duration = "0.1 s"
         finished.summary["warnings"].to_string()
     };
     let block = |id: &str, course: usize, x: f64, y: f64| {
-        format!("[[panel.block]]\nid = \"{id}\"\ncourse = {course}\nx = {x}\ny = {y}\nlength = 0.25\n")
+        format!("[[panel.block]]\nid = \"{id}\"\ncourse = {course}\nx = {x}\ny = {y}\nlength = 0.25\nheight = 0.055\n")
     };
     let hangs = block("below", 1, 0.0, 0.0) + &block("above", 2, 0.1, 0.055);
     let springs = "law = \"elastic\", stiffness = \"100 N/mm3\"";
