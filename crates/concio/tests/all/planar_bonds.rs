@@ -557,6 +557,36 @@ fn the_account_closes_where_joints_crush_and_where_bonds_end() {
     }
 }
 
+/// The account closes where a wall on joints that crush falls too: a stone is pushed off its top, and what has parted comes together elsewhere.
+#[test]
+fn the_account_closes_where_a_crushed_wall_falls() {
+    let wall = r#"model = "planar"
+[[panel]]
+bond = "running"
+courses = 5
+bricks = 4
+brick = { length = 0.4, height = 0.2, thickness = 0.3, specific_weight = 22e3 }
+mortar = { bed = 0, head = 0 }
+[joint]
+bed = { law = "rigid", compressive_strength = "2 MPa" }
+head = { law = "rigid" }
+friction = { law = "coulomb", static = 0.5, on = "all" }
+[[joint.change]]
+at = { kind = ["base"] }
+friction = { law = "none" }
+[[force]]
+block = "p1c5b1"
+x = ["20 kN", "0 N"]
+every = "0.02 s"
+[motion]
+duration = 0.8
+base = "none"
+"#;
+    let outcome = ran(wall).1;
+    let residual = outcome.totals.peak_residual / outcome.totals.peak_input;
+    assert!(outcome.totals.collapse.is_some() && residual < 1e-3, "{residual:e}");
+}
+
 /// What is crushed of a joint is gone: a stone of 1 m × 2 m that is pushed over, back and over again by 2 % bears what 2,000 strips do, and crushing takes what it
 /// takes from them. Springs of 4,800 N/mm³ are pressed in by less than 1e-6 of the length at their strength, and act as stiff as that.
 #[test]
