@@ -179,7 +179,7 @@ struct Step<'a> {
 /// What contacts are like, for how a step is solved.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Survey {
-    /// Whether none bore anything.
+    /// Whether none bore anything, nor holds by a bond.
     new: bool,
     /// How many are not left out, how many of them are of the most frequent kind, and how many do not yield.
     all: usize,
@@ -196,7 +196,7 @@ impl Default for Survey {
 impl Survey {
     /// Another contact.
     pub fn see(&mut self, contact: &Contact) {
-        self.new &= contact.impulse == [0.0; 2];
+        self.new &= contact.impulse == [0.0; 2] && contact.pressure[0] == 0.0;
         if contact.left_out {
             return;
         }
