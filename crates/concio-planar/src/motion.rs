@@ -447,6 +447,10 @@ pub struct Motion {
     softens: Vec<Softens>,
     /// Whether what they bear was not found.
     astray: bool,
+    /// Whether bonds of rigid joints hold whatever comes.
+    spares: bool,
+    /// Steps of [`Motion::stand`] whose contact was left unsolved.
+    pub unsettled: u64,
     /// Until when it counts how fast springs ring [s].
     rings_until: f64,
     /// Without inertia: what the step would bear had nothing cracked, where a bond broke at once in it.
@@ -511,6 +515,8 @@ impl Motion {
             bent: Vec::new(),
             softens: Vec::new(),
             astray: false,
+            spares: false,
+            unsettled: 0,
             rings_until: f64::NEG_INFINITY,
             uncracked: None,
             free: vec![[0.0; 3]; bodies.len()],
@@ -553,7 +559,10 @@ impl Motion {
         let laid = self.places.clone();
         let (mut stands, mut rests) = (false, 0);
         for number in 1..=most {
+            // What nothing breaks has forces that springs of one stiffness would have: bonds break by those, not by what loads do that come at once.
+            self.spares = number == 1;
             self.take(self.setting.step, Forcing::default(), CROSSINGS);
+            self.spares = false;
             // Points of joints that are open in part move after a step: at rest none have for some.
             rests = if self.fastest() * self.setting.step <= within { rests + 1 } else { 0 };
             if rests == RESTS {
@@ -572,7 +581,7 @@ impl Motion {
         self.velocities.fill([0.0; 3]);
         self.time = 0.0;
         self.account = Account { elastic: self.account.elastic, ..Account::default() };
-        self.counters = Counters::default();
+        self.unsettled = std::mem::take(&mut self.counters).unsolved;
         self.seen.iter_mut().for_each(|s| (s.path, s.taken, s.broken) = (0.0, 0.0, 0.0));
         // What cracks under the loads is cracked when time begins.
         for crack in self.pairs.iter_mut().filter_map(|p| p.crack.as_mut()) {
@@ -976,6 +985,9 @@ impl Motion {
         let firm = self.setting.firm(if whole { h.max(self.setting.step) } else { h });
         let start = law.begin(state, share, h, (self.setting.still, firm), (gap, before), &mut contact);
         contact.moved = moved;
+        if self.spares && yields {
+            (contact.pressure[0], contact.hold) = (f64::NEG_INFINITY, f64::INFINITY);
+        }
         if edge > 0.0 {
             let most = h * edge * law.crushing;
             contact.pressure = [-most, contact.pressure[1] + most];
@@ -1173,6 +1185,7 @@ impl Motion {
                             (seen.gap, seen.slide) = ([near.min(far), near.max(far)], 0.5 * (slide + slid));
                         }
                     }
+                    false if self.spares => {}
                     false => {
                         let slid = bond_slides(law, &self.contacts[at..end], &self.owners[at..end], |contact, _| {
                             contact.impulse

@@ -114,6 +114,8 @@ pub enum Rest {
         settled: f64,
         /// Joints whose bond its loads have cracked.
         cracked: usize,
+        /// Steps of that whose contact was left unsolved.
+        unsolved: u64,
     },
     /// It has not come to rest in the steps that it is given, and how far it was then [m]: its joints are soft, or it falls slowly.
     Settles(f64),
@@ -663,7 +665,8 @@ pub(crate) fn standing(planar: &Planar) -> (Motion, Rest) {
     if settled <= most * least {
         let has_cracked = |e: &usize| motion.crack(*e).is_some_and(|crack| crack.cracked.is_finite());
         let cracked = (0..planar.system.links.len()).filter(has_cracked).count();
-        return (motion, Rest::Stands { settled, cracked });
+        let unsolved = motion.unsettled;
+        return (motion, Rest::Stands { settled, cracked, unsolved });
     }
     let rest = if settled <= FELL * least { Rest::Settles(settled) } else { Rest::Falls };
     (Motion::new(&planar.system, setting), rest)

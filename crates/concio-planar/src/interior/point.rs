@@ -516,10 +516,12 @@ impl<const N: usize> Point<N> {
         (point, Kind { moves, rubs, dry: is_dry(contact), on: std::array::from_fn(|i| bounds[i]) })
     }
 
-    /// μ where the contact is pressed or would be, 0 where it is pulled.
+    /// μ where the contact is pressed or would be, 0 where it is pulled. What holds without pressure lets p_n pass from one to the other itself: what
+    /// it would be jumps to and fro where it hardly yields.
     #[inline(always)]
     pub fn mu(&self, kind: &Kind<N>, contact: &Contact, u_n: f64, beside: f64) -> f64 {
-        if kind.dry || self.tends(contact, u_n) + beside > 0.0 { contact.friction } else { 0.0 }
+        let p_n = if contact.hold > 0.0 { self.p[0] } else { self.tends(contact, u_n) };
+        if kind.dry || p_n + beside > 0.0 { contact.friction } else { 0.0 }
     }
 
     /// What p_n would be without friction, whose bounds would not let the whole pass from pressure to tension.

@@ -400,6 +400,65 @@ step = {step}
     }
 }
 
+/// Weak bonds under loads far above them rest as those of stiff springs do: under even loads heads bear nothing, and beside an opening as many joints crack.
+#[test]
+fn weakly_bonded_rigid_joints_rest_as_stiff_springs_do() {
+    let rests = |law: &str, panel: &str, load: u32, bond: [f64; 2], base: &str| {
+        let wall = format!(
+            r#"model = "planar"
+[[panel]]
+bond = "running"
+brick = {{ length = 0.4, height = 0.2, thickness = 0.3, specific_weight = 22e3 }}
+mortar = {{ bed = 0, head = 0 }}
+{panel}
+[joint]
+bed = {{ {law} }}
+head = {{ {law} }}
+friction = {{ law = "coulomb", static = 0.577, on = "all" }}
+bond = {{ tensile_strength = {}, cohesion = {}, friction_angle = "30 deg" }}
+[load]
+top = "{load} kN/m"
+beam = {{ mass = {} }}
+[motion]
+quasi_static = true
+{base}
+[output]
+joints = ["p1c3b1|p1c3b2"]
+"#,
+            bond[0],
+            bond[1],
+            120.0 * f64::from(load)
+        );
+        ran(&wall).1
+    };
+    let springs = r#"law = "no-tension", stiffness = "500 N/mm3", rigidity = 1, normal_to_shear = 1"#;
+    let rigid = r#"law = "rigid""#;
+    let lean = "duration = 4\nbase = { tilt = { acceleration = \"1 g\", rise = \"100 s\" } }";
+    let even = |law: &str| rests(law, "courses = 6\nbricks = 3", 300, [20e3, 50e3], lean);
+    let outcome = even(rigid);
+    assert!(channel(&outcome, "joint/p1c3b1|p1c3b2/pressure")[0].abs() < 1.0);
+    let crack = |outcome: &Outcome| outcome.first_crack().expect("a crack").cracked;
+    agrees!(
+        "Bonds: running bond of rigid joints with f_t of 20 kPa under 300 kN/m, leant at 0.01 g/s; first crack",
+        "springs of 500 N/mm³",
+        "s",
+        crack(&outcome),
+        crack(&even(springs)),
+        6e-2
+    );
+    let window = "courses = 10\nbricks = 5\n[[panel.opening]]\nx = \"1.5 bricks\"\ny = \"3 courses\"\nwidth = \"2 bricks\"\nheight = \"4 courses\"\n\
+                  lintel = { height = \"1 courses\", bearing = \"0.5 bricks\" }";
+    for (load, strength) in [(20, 37.5e3), (300, 10e3)] {
+        let cracked = |law: &str| {
+            let outcome = rests(law, window, load, [strength, 3.0 * strength], "duration = 0.04");
+            outcome.bonds.iter().filter(|bond| bond.cracked == 0.0).count() as f64
+        };
+        let subject =
+            format!("Bonds: rigid joints round a window under {load} kN/m; joints that crack under the loads");
+        agrees!(subject, "springs of 500 N/mm³", "", cracked(rigid), cracked(springs), 0.15);
+    }
+}
+
 /// Breaking in shear takes G_f^II A under any pressure, and friction μ N takes the place of what the strength c A + N tan φ loses on the way (B4), (B5).
 #[test]
 fn a_full_break_takes_its_energy_under_any_pressure() {

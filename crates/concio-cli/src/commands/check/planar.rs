@@ -117,7 +117,7 @@ pub fn warn_of_fall(planar: &Planar) {
 /// Whether the wall stands before anything moves, and whole.
 pub fn rest(rest: Rest, bonds: usize) -> String {
     match rest {
-        Rest::Stands { settled, cracked } => {
+        Rest::Stands { settled, cracked, unsolved } => {
             let settled = match settled < ROUNDED {
                 true => String::new(),
                 false => format!(", settled by {} at most", si(settled, "m")),
@@ -126,7 +126,13 @@ pub fn rest(rest: Rest, bonds: usize) -> String {
                 0 => String::new(),
                 cracked => format!(", {cracked} of {bonds} bonds cracked"),
             };
-            format!("stands{settled}{cracked}")
+            let unsolved = match unsolved {
+                0 => String::new(),
+                unsolved => format!(
+                    ", but {unsolved} steps of that were left unsolved: its joints may bear what they should not"
+                ),
+            };
+            format!("stands{settled}{cracked}{unsolved}")
         }
         Rest::Settles(way) => {
             format!(
