@@ -448,9 +448,9 @@ joints = ["p1c3b1|p1c3b2"]
     );
     let window = "courses = 10\nbricks = 5\n[[panel.opening]]\nx = \"1.5 bricks\"\ny = \"3 courses\"\nwidth = \"2 bricks\"\nheight = \"4 courses\"\n\
                   lintel = { height = \"1 courses\", bearing = \"0.5 bricks\" }";
-    for (load, strength) in [(20, 37.5e3), (300, 10e3)] {
+    for (load, cohesion) in [(100, 40e3), (300, 120e3)] {
         let cracked = |law: &str| {
-            let outcome = rests(law, window, load, [strength, 3.0 * strength], "duration = 0.04");
+            let outcome = rests(law, window, load, [40e3, cohesion], "duration = 0.04");
             outcome.bonds.iter().filter(|bond| bond.cracked == 0.0).count() as f64
         };
         let subject =
