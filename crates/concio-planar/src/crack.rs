@@ -348,7 +348,7 @@ pub(crate) struct Spot {
     pub share: f64,
     /// How much of the joint it is: these add up to 1.
     pub weight: f64,
-    /// The part of its friction that acts.
+    /// The part of its friction that acts: above 1 where it rubs for an edge beside it.
     pub rubbing: f64,
     /// The part of its dashpot across that acts.
     pub damps: f64,

@@ -238,6 +238,11 @@ impl Law {
         [strength, (self.slow_friction() * pressure).min(strength)]
     }
 
+    /// Whether its bond alone holds it: rigid points of such a joint yield alike, however much presses them.
+    pub(crate) fn holds(&self) -> bool {
+        self.bond.is_some() && !self.is_compliant()
+    }
+
     /// Slide that would bear along what an opening `w` of an intact bond takes from its strength there, as (P9) says [m].
     pub(crate) fn pulled(&self, w: f64) -> f64 {
         let (both, _) = self.springs();
@@ -413,7 +418,7 @@ pub struct Point {
     pub crushed: f64,
     /// Internal variable of a device, ζ of (I5) or s [m] of (I7).
     pub internal: f64,
-    /// The part of its friction that acts, 0 … 1: less than 1 where a bond holds.
+    /// The part of its friction that acts: less than 1 where a bond holds, more where it rubs for an edge beside it.
     pub rubbing: f64,
     /// The part of its dashpot across that acts, 0 or 1: none where it stands for what is open of a joint that can be crushed.
     pub damps: f64,
@@ -492,14 +497,14 @@ pub struct Works {
 
 impl Law {
     /// Makes a contact one of this law: `share` is the part of the joint that it stands for, `h` the step [s], `gap` and
-    /// `velocity` the state at its start. Without inertia (`still`) springs are those of the end of the step. `firm` is ρ of (P4) over the mass that
-    /// a point moves, where nothing else yields.
+    /// `velocity` the state at its start. Without inertia (`still`) springs are those of the end of the step. Where nothing else yields, `firm` is ρ of (P4) over the
+    /// `mass` that its point moves, or has its share of where it holds [kg].
     pub fn begin(
         &self,
         point: &Point,
         share: f64,
         h: f64,
-        (still, firm): (bool, f64),
+        (still, firm, mass): (bool, f64, f64),
         (gap, velocity): (f64, [f64; 2]),
         contact: &mut Contact,
     ) -> Start {
@@ -522,8 +527,8 @@ impl Law {
         // ρ of what has no spring, both ways by the mass that moves across, or what of that whose weight presses it counts [kg]: along, stiffer ones take more
         // iterations.
         let pressed = point.force[0].max(-(both + press) * (gap + point.crushed));
-        let loaded = if self.bond.is_some() { 0.0 } else { pressed / G };
-        let resists = firm * contact.moved[0].max(if still { 1.0 } else { LOADED } * loaded);
+        let loaded = if self.holds() { 0.0 } else { pressed / G };
+        let resists = firm * mass.max(if still { 1.0 } else { LOADED } * loaded);
         match self.normal {
             Normal::Rigid { restitution, .. } => {
                 contact.law[0] = Linear { offset: h * point.force[0], rho: resists };

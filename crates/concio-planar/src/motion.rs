@@ -975,17 +975,13 @@ impl Motion {
             }
             slipped = pair.link.is_some() && gap - state.gap > jump;
         }
-        // What grips does so however little resists.
-        let moved = contact.moved;
-        // Forces of a wall whose joints all hold are those of one that yields alike all over.
-        let yields = law.bond.is_some() && !law.is_compliant();
-        contact.moved = if yields { [self.heft * length * share; 2] } else { moved }.map(|m| m / self.resists);
+        // Forces of a wall whose joints all hold are those of one that yields alike all over. What grips does so however little resists.
+        let mass = if law.holds() { self.heft * length * share } else { contact.moved[0] } / self.resists;
         // In parts of a step a point yields more, and leaves some of its approach: rebounds and (P8) would lose it.
         let whole = !self.setting.still && (law.rebounds() || law.rocking().is_some());
         let firm = self.setting.firm(if whole { h.max(self.setting.step) } else { h });
-        let start = law.begin(state, share, h, (self.setting.still, firm), (gap, before), &mut contact);
-        contact.moved = moved;
-        if self.spares && yields {
+        let start = law.begin(state, share, h, (self.setting.still, firm, mass), (gap, before), &mut contact);
+        if self.spares && law.holds() {
             (contact.pressure[0], contact.hold) = (f64::NEG_INFINITY, f64::INFINITY);
         }
         if edge > 0.0 {

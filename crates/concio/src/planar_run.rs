@@ -580,9 +580,12 @@ impl Bodies {
 
     /// How the wall falls after a step that did not end at rest.
     fn fall(&self, model: &Model) -> Option<Falling> {
+        if !self.motion.falls {
+            return None;
+        }
         let (start, end) = (&self.last.start, &self.last.end);
         let way = |i: usize| (end.z[i] - start.z[i]).hypot(end.vertical[i] - start.vertical[i]);
-        let blocks = (0..model.wall.blocks.len()).filter(|_| self.motion.falls);
+        let blocks = 0..model.wall.blocks.len();
         let (block, way) = blocks.map(|i| (i, way(i))).max_by(|a, b| a.1.total_cmp(&b.1))?;
         Some(Falling { since: self.falling.map_or(self.last.began, |falling| falling.since), block, way })
     }

@@ -112,7 +112,8 @@ impl Crack {
         // Such a spring may pull in a step, and what crushes rubs for it: what rubs of its pressure, over that of what crushes.
         let rubbed = |zone: &Zone| zone.gap[0] * zone.rubs[0] / zone.acts[0];
         let thin = zones.iter().enumerate().filter(|(kind, zone)| edge(*kind, zone)).map(|(_, zone)| rubbed(zone));
-        let also = thin.sum::<f64>() / rubbed(&zones[CRUSHING]).min(-f64::MIN_POSITIVE);
+        let own = rubbed(&zones[CRUSHING]);
+        let also = if own < 0.0 { thin.sum::<f64>() / own } else { 0.0 };
         let ends = zones
             .iter()
             .filter(|zone| zone.is_there())

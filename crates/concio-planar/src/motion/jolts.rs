@@ -20,7 +20,7 @@ const SPENT: f64 = 0.01;
 const RINGS: f64 = 5e-3;
 /// How many steps, or parts of steps, ahead it is looked whether a load crushes a joint as a whole: how it swings until then decides how far.
 const NEARS: f64 = 50.0;
-/// What a joint bears before it closes, over all that it takes as it closes and over the energy of motion, from which it counts; of what a tie does the latter alone.
+/// What a joint bears before it closes, over all that it takes as it closes and over the energy of motion, from which it counts; for ties the second limit alone holds.
 const EARLY: f64 = 0.01;
 const EARLY_COUNTS: f64 = 1e-5;
 /// What is crushed of an edge in a whole step, over what its springs are pressed in by where that begins, from which it counts.
@@ -72,8 +72,8 @@ impl Motion {
         nears || soon && (self.time < self.rings_until || self.crushes && self.crushes_fast(h))
     }
 
-    /// Whether joints that were crushed, or slack ties, bear so much before they close that it counts: what closes in a step bears in all of it, and what that takes crushes
-    /// nothing and pulls too soon. Other joints are not asked: their springs ring in shorter steps.
+    /// Whether joints that were crushed, or slack ties, bear so much before they close that it counts: what closes in a step bears in all of it, so that a joint
+    /// is spared crushing and a tie pulls too soon. Other joints are not asked: their springs ring in shorter steps.
     fn closes_early(&self, h: f64) -> bool {
         let crushing = |(_, owner): &(&Contact, &Owner)| {
             owner.part == Part::Dry && self.pairs[owner.pair].crack.as_ref().is_some_and(Crack::is_crushed)
@@ -83,7 +83,8 @@ impl Motion {
             let force = contact.impulse[0] / h;
             [force * (start.gap + crushed).min(way).max(0.0), (force * way).max(0.0)]
         };
-        let counts = |early: f64| early > EARLY_COUNTS * self.energy_of_motion(SETTLES * self.setting.step);
+        let counts =
+            |early: f64| early > 0.0 && early > EARLY_COUNTS * self.energy_of_motion(SETTLES * self.setting.step);
         let sum = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
         let (joints, ties) = self.contacts.split_at(self.owners.len());
         let of_joint = |(contact, owner): (&Contact, &Owner)| {
@@ -226,7 +227,7 @@ pub(super) fn slides_whole(at: usize, contacts: &[Contact], owners: &[Owner], af
     own.into_iter().all(|(c, _)| c.impulse[0] == 0.0 || slides(c, c.velocity(after)[1], h))
 }
 
-/// Whether a bonded rigid joint with these contacts, which bear so much, is torn at a point or sheared through. How rigid points share the shear is not
+/// Whether a bonded rigid joint with these contacts, which bear so much, is torn or sheared through. How rigid points share the shear is not
 /// known: the joint has its strength as a whole.
 pub(super) fn bond_slides(
     law: &Law,
@@ -234,17 +235,19 @@ pub(super) fn bond_slides(
     owners: &[Owner],
     borne: impl Fn(&Contact, &Owner) -> [f64; 2],
 ) -> bool {
-    let (mut pressed, mut shear, mut strength, mut torn) = (0.0, 0.0, 0.0, false);
+    let (mut pressed, mut shear, mut strength, mut torn) = (0.0, 0.0, 0.0, [false, true]);
     for (contact, owner) in contacts.iter().zip(owners).filter(|(_, owner)| owner.part == Part::Held) {
         let [across, along] = borne(contact, owner);
         pressed += across;
         shear += along;
         strength += contact.hold;
-        torn |= contact.pressure[0] < 0.0 && across <= contact.pressure[0];
+        if contact.pressure[0] < 0.0 {
+            torn = [true, torn[1] && across <= contact.pressure[0]];
+        }
     }
     let tan = law.bond.map_or(0.0, |bond| if pressed < 0.0 { bond.tan_pulled() } else { bond.tan_angle });
     strength += tan * pressed;
-    torn || strength.is_finite() && shear.abs() >= strength * (1.0 - SHEARED) && shear != 0.0
+    torn == [true; 2] || strength.is_finite() && shear.abs() >= strength * (1.0 - SHEARED) && shear != 0.0
 }
 
 /// What a bonded rigid joint with these contacts bears beyond what it would without bond: its pull, and its shear beyond friction [N s].

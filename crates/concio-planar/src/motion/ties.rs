@@ -66,7 +66,7 @@ impl Motion {
             &strain.point,
             1.0,
             h,
-            (self.setting.still, self.setting.firm(h)),
+            (self.setting.still, self.setting.firm(h), contact.moved[0]),
             (reach - length, [closing, 0.0]),
             &mut contact,
         );

@@ -11,7 +11,7 @@ use super::{
     Beam, Bond, Brick, Case, Course, FrictionChange, FrictionLaw, HistoryQuantity, JointBond, JointKind, Joints,
     ModelKind, Panel, Scheme, Signal, Solver, SpringChange, TopLoad,
 };
-use crate::quantity::{Acceleration, Stiffness, shown};
+use crate::quantity::{self, Acceleration, Stiffness, shown};
 use crate::warning::{Warning, WarningKind};
 
 /// What a quantity is expected to be, in SI.
@@ -196,13 +196,13 @@ const INTERVAL: Expected =
 const SAMPLED: Expected =
     Expected { limits: [1e-5, 0.05], usual: [1e-3, 0.02], unit: "s", slips: &[(1e-3, "ms", 1e-3), (0.1, "s", 1.0)] };
 
-/// Steps of a planar wall: with longer ones than some milliseconds blocks pass through each other.
+/// Steps of a planar wall: longer ones than some milliseconds are taken in parts where blocks fly, and miss how they strike.
 const STEP: Expected = Expected { limits: [1e-7, 0.05], usual: [1e-5, 0.01], unit: "s", slips: &[(1e-3, "ms", 1e-3)] };
 /// How fast an actuator moves a wall.
 const SPEED: Expected =
     Expected { limits: [1e-9, 3.0], usual: [1e-6, 0.5], unit: "m/s", slips: &[(1e-3, "mm/s", 1e-3)] };
 
-/// Forces of ties and of what meets a corner or a ridge: from a nail in old timber to a bundle of bars.
+/// Forces of ties and of what meets a corner: from a nail in old timber to a bundle of bars.
 const PULL: Expected =
     Expected { limits: [2e2, 1e7], usual: [1e3, 2e6], unit: "N", slips: &[(1e3, "kN", 1e3), (1e-3, "kN", 1e3)] };
 /// What a ridge beam brings to a gable: a purlin of a shed to the roof of a church.
@@ -700,23 +700,23 @@ fn bare_weights(tree: &Node) -> Vec<Warning> {
 /// One sentence for each peak with a unit of length over time squared that shakes no wall.
 fn odd_accelerations(tree: &Node) -> Vec<Warning> {
     let ends = ["base", "top", "vertical"].into_iter();
-    let motions = ends.flat_map(|end| PEAKS.map(|key| (format!("motion.{end}.{key}"), NO_SHAKING)));
+    let motions = ends.flat_map(|end| PEAKS.map(|key| (format!("motion.{end}.{key}"), &SHAKING, NO_SHAKING)));
     let least = |name: &str| if name == "damage" { NO_DAMAGE } else { NO_SHAKING };
-    let sites = Site::NAMES.map(|name| (format!("out_of_plane.site.{name}.ground_acceleration"), least(name)));
-    let doubt = |(key, least): (String, f64)| {
+    let sites = Site::NAMES.map(|name| (format!("out_of_plane.site.{name}.ground_acceleration"), &GROUND, least(name)));
+    let doubt = |(key, expected, least): (String, &Expected, f64)| {
         let Value::Text(text) = &key.split('.').try_fold(tree, |node, step| node.get(step))?.value else { return None };
         let text = text.trim();
         let peak = Acceleration::parse(text).ok()?.si();
-        let weak = peak > 0.0 && peak < least && text.contains('/');
+        // What is less than any is doubted where it is read.
+        let weak = peak >= expected.limits[0] && peak < least && text.contains('/');
         weak.then(|| {
-            let number = text.split(|c: char| c.is_whitespace() || c.is_alphabetic()).next().unwrap_or_default();
-            let number: Option<f64> = number.parse().ok();
+            let number: Option<f64> = quantity::parts(text).0.parse().ok();
             let guess = number.into_iter().flat_map(|v| [v, 1e-2 * v]).find(|v| (0.05..=2.0).contains(v));
             let meant = guess.map_or(String::new(), |v| format!("; did you mean \"{} g\"?", shown(rounded(v, 6))));
             let peak = shown(rounded(peak / crate::G, 3));
             Warning::new(
                 WarningKind::UnlikelyNumber,
-                format!("{key} is {text}, {peak} g, which shakes hardly a wall{meant}"),
+                format!("{key} is {text}, {peak} g, which hardly shakes a wall{meant}"),
             )
         })
     };

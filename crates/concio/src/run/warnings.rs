@@ -366,7 +366,7 @@ fn cracked_at_rest(planar: Option<&Planar>, joints: &[JointRow], outcome: &Outco
     let first = at_rest().next()?;
     let rigid = at_rest().any(|bond| !planar.system.links[bond.joint].law.is_compliant());
     let remedy = if rigid {
-        ": rigid joints bear there what springs of one stiffness would. Compare with springs of your own (`law = \"elastic\"`)"
+        ": how rigid joints share forces is a convention. Compare with springs of your own (`law = \"elastic\"`)"
     } else {
         ": the wall has cracks when the motion begins"
     };
@@ -411,8 +411,8 @@ fn moves_on(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option
 fn falls_on(model: &Model, outcome: &Outcome) -> Option<String> {
     let Falling { since, block, way } = outcome.falling.filter(|falling| falling.way > NOTHING)?;
     Some(format!(
-        "the wall is still falling when the run ends: it has not come to rest since t = {since:.4} s, and block {} went by {} mm in the last step. What it bore is its \
-         load until then; a longer motion.duration shows where it ends",
+        "the wall is still falling when the run ends: it has not come to rest since t = {since:.4} s, and block {} went by {} mm in the last step. It bore its load \
+         up to that time; a longer motion.duration shows where it ends",
         model.wall.blocks[block].name,
         shown(rounded(1e3 * way, 3)),
     ))

@@ -25,9 +25,9 @@ use crate::record::{Layout, Recording};
 mod lock;
 mod rows;
 
-/// First bytes of both files; the digit is the version of their format.
+/// First bytes of both files; the last is the version of their format.
 const JOURNAL_MAGIC: [u8; 8] = *b"concioJ1";
-const CHECKPOINT_MAGIC: [u8; 8] = *b"concioC9";
+const CHECKPOINT_MAGIC: [u8; 8] = *b"concioCA";
 const HEADER: u8 = b'H';
 const ROWS: u8 = b'R';
 const STATE: u8 = b'S';

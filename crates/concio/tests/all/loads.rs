@@ -375,7 +375,7 @@ duration = "0.1 s"
     let hangs = block("below", 1, 0.0, 0.0) + &block("above", 2, 0.1, 0.055);
     let springs = "law = \"elastic\", stiffness = \"100 N/mm3\"";
     for (law, remedy) in
-        [("law = \"rigid\"", "springs of one stiffness"), (springs, "has cracks when the motion begins")]
+        [("law = \"rigid\"", "share forces is a convention"), (springs, "has cracks when the motion begins")]
     {
         let pressed =
             told(&wall("bond = \"running\"\ncourses = 2\nbricks = 1", "[load]\ntop = { force = \"5 kN\" }", law));

@@ -29,6 +29,7 @@ mod planar_bonds;
 mod planar_motion;
 mod planar_results;
 mod plausible;
+mod plausible_out_of_plane;
 mod polygons;
 mod record_formats;
 mod record_texts;

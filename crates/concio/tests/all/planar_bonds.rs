@@ -459,6 +459,34 @@ joints = ["p1c3b1|p1c3b2"]
     }
 }
 
+/// A rigid joint under 50 kN/m² with an f_t of 10 that is turned at once by twice what first cracks it cracks as far as a plane section does and no farther: the length c of what
+/// holds follows from c/3 − f_t c²/(6 p ℓ) = 0.1 ℓ.
+#[test]
+fn a_moment_that_comes_at_once_cracks_a_part() {
+    let (_, outcome) = ran(r#"model = "planar"
+[[panel]]
+bond = "stack"
+courses = 1
+bricks = 1
+brick = { length = 0.5, height = 2.5, thickness = 0.3, specific_weight = 20e3 }
+mortar = { bed = 0, head = 0 }
+[joint]
+bed = { law = "rigid" }
+head = { law = "none" }
+friction = { law = "coulomb", static = 0.6, on = "all" }
+bond = { tensile_strength = "10 kPa", cohesion = "1 MPa", friction_angle = "30 deg" }
+[motion]
+quasi_static = true
+duration = 0.1
+base = { tilt = { acceleration = "0.16 g", rise = "0.5 ms" } }
+"#);
+    let bond = &outcome.bonds[0];
+    assert!(bond.cracked < 0.03 && bond.broken.is_infinite(), "{bond:?}");
+    let held = (0..60).fold(0.3, |c: f64, _| 0.3 + 0.1 * c * c);
+    let subject = "Bonds: crack of a rigid joint that is turned at once";
+    agrees!(subject, "plane section", "", bond.crack, 1.0 - held, 2e-2);
+}
+
 /// Breaking in shear takes G_f^II A under any pressure, and friction μ N takes the place of what the strength c A + N tan φ loses on the way (B4), (B5).
 #[test]
 fn a_full_break_takes_its_energy_under_any_pressure() {
