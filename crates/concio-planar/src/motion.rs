@@ -677,7 +677,9 @@ impl Motion {
     fn follow(&mut self, start: f64, h: f64, acts: &Forcing) {
         let size = self.radius.iter().fold(0.0, |most: f64, r| most.max(*r));
         let stays = |from: f64, to: f64| Forcing { held: 0.0, base: acts.base.map(|v| v * (to - from) / h) };
-        let (mut way, mut step) = (self.fastest() * h, h);
+        // What swings slowly comes to rest in steps of some length, however finely loads are followed.
+        let first = h.max(SETTLING);
+        let (mut way, mut step) = (self.fastest() * h, first);
         let (mut most, mut ratio, mut longer, mut rests, mut cracks) = (way, f64::INFINITY, false, false, false);
         // One step in which points of joints move to where they bear is no sign of a fall: how many of one length did not slow down.
         let (mut faster, mut falls) = (0, true);
@@ -691,11 +693,11 @@ impl Motion {
             if rests || enough && !cracks {
                 break;
             }
-            longer = !cracks && ratio > SLOWLY && (ratio < 1.0 || way <= FAR * size) && step < LONGEST * h;
+            longer = !cracks && ratio > SLOWLY && (ratio < 1.0 || way <= FAR * size) && step < LONGEST * first;
             if longer {
                 step *= 2.0;
             } else if cracks {
-                step = h;
+                step = first;
             }
             self.worn = false;
             self.part(start + h - step, step, 0, &stays);
