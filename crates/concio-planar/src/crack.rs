@@ -32,7 +32,7 @@
 //! (P12)  τ = e^−ξ min(c s/q, f_t k_t s/(k_n w)),   q = s + min(1, f_t k_t q/(c k_n w)) a w,   ξ = (w − w_0)/δ_n + ⟨s − s_1⟩/δ_t,   k_n w_0 = f_t,   k_t s_1 = e^−ξ₀ (c − f_t tan φ),   ξ₀ = (w − w_0)/δ_n
 //!
 //! Rigid joints break by plane sections: the stress of the joint is the straight line that balances what its points bear, cracked parts pressing only;
-//! the crack runs as far as it is above f_t at its tip.
+//! the crack runs as far as it is above f_t at its tip, or of a joint that is pulled as a whole above what its shear leaves there.
 
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
@@ -1041,16 +1041,23 @@ impl Crack {
     }
 
     /// Whether a rigid joint cracks farther under what its points bear, `force` [N], or breaks as it slides.
-    pub(crate) fn breaks_rigid(&self, law: &Law, force: &dyn Fn(usize) -> f64, slid: bool) -> bool {
+    pub(crate) fn breaks_rigid(&self, law: &Law, force: &dyn Fn(usize) -> [f64; 2], slid: bool) -> bool {
         let Some(bond) = law.bond.filter(|_| !self.is_gone()) else { return false };
         let Front { held, gone, .. } = self.front(&bond, force, slid);
         gone || held != self.held
     }
 
-    /// How far a rigid joint cracks under what its points bear, `force` [N]; it is `gone` where it slid.
-    fn front(&self, bond: &Bond, force: &dyn Fn(usize) -> f64, mut gone: bool) -> Front {
-        let sum = |f: &dyn Fn(&Spot) -> f64| self.spots.iter().map(|s| force(s.point) * f(s)).sum::<f64>();
+    /// How far a rigid joint cracks under what its points bear, `force` [N]; it is `gone` where it slid. Of a joint that is pulled as a whole, what its bond bears along is the same
+    /// all over what is held, and takes from the tension that its tip bears, as (P9) says.
+    fn front(&self, bond: &Bond, force: &dyn Fn(usize) -> [f64; 2], mut gone: bool) -> Front {
+        let sum = |f: &dyn Fn(&Spot) -> f64| self.spots.iter().map(|s| force(s.point)[0] * f(s)).sum::<f64>();
         let (normal, moment) = (sum(&|_| 1.0), sum(&|spot| spot.at - 0.5));
+        let held = self.spots.iter().filter(|spot| spot.part == Part::Held);
+        let shear = held.map(|spot| force(spot.point)[1]).sum::<f64>().abs();
+        let bears = |first: usize, last: usize| {
+            let (left, tan) = (bond.cohesion - shear / (place(last) - place(first)), bond.tan_pulled());
+            if normal < 0.0 && tan > 0.0 && left < tan * bond.tension { left.max(0.0) / tan } else { bond.tension }
+        };
         // The edges of an uncracked joint are stressed by N ∓ 6 M/ℓ over its area.
         let stressed = |first: usize, last: usize| match last - first == NODES - 1 {
             true => Some([normal - 6.0 * moment, normal + 6.0 * moment]),
@@ -1060,7 +1067,7 @@ impl Crack {
         let mut begins = None;
         let over = loop {
             let tips = stressed(first, last);
-            let over = tips.map_or(f64::INFINITY, |[a, b]| -a.min(b) - bond.tension);
+            let over = tips.map_or(f64::INFINITY, |[a, b]| -a.min(b) - bears(first, last));
             begins.get_or_insert(over);
             if gone || over <= 0.0 {
                 break over;
@@ -1092,7 +1099,7 @@ impl Crack {
         let parted = bond.tension == 0.0
             && self.spots.iter().any(|spot| spot.part == Part::Held && points[spot.point].gap > TOUCHING);
         let Front { held: [first, last], gone, begins, over } =
-            self.front(&bond, &|point| points[point].force[0], slid || parted);
+            self.front(&bond, &|point| points[point].force, slid || parted);
         let (was, before) = (std::mem::replace(&mut self.borne, borne), std::mem::replace(&mut self.over, over));
         if !gone && [first, last] == self.held {
             return None;

@@ -157,7 +157,8 @@ impl Motion {
             let bears = bears_more(law, contacts, owners);
             let force = |point: usize| {
                 let own = owners.iter().zip(contacts).filter(|(owner, _)| owner.point == point);
-                own.map(|(owner, contact)| ahead(contact, owner)[0] / h).sum::<f64>()
+                let sum = |sum: [f64; 2], p: [f64; 2]| [sum[0] + p[0] / h, sum[1] + p[1] / h];
+                own.map(|(owner, contact)| ahead(contact, owner)).fold([0.0; 2], sum)
             };
             if bears > 0.0 && crack.breaks_rigid(law, &force, bond_slides(law, contacts, owners, ahead)) {
                 falls += bears;
