@@ -313,7 +313,7 @@ impl Law {
     }
 
     /// Springs: in both directions, and in compression only.
-    fn springs(&self) -> (f64, f64) {
+    pub(crate) fn springs(&self) -> (f64, f64) {
         match self.normal {
             Normal::Rigid { .. } => (0.0, 0.0),
             Normal::Springs { both, press, .. } => (both, press),
