@@ -875,8 +875,10 @@ impl Motion {
 
     fn solve(&mut self, h: f64, halves: bool) -> Effort {
         let part = self.setting.part(h);
+        // Of what bore nothing before, forces are known by how little it yields alone.
+        let closely = if self.spares { part / FIRM } else { part };
         let Motion { solver, resistance, free, contacts, after, setting, .. } = self;
-        let ends = (part * setting.tolerance, part * setting.enough());
+        let ends = (closely * setting.tolerance, part * setting.enough());
         solver.solve(resistance, free, contacts, after, ends, halves)
     }
 
