@@ -276,7 +276,9 @@ fn what_is_torn_takes_no_more_than_its_energy() {
             let subject = format!(
                 "Bonds: energy of a softening joint torn by a load that grows; {name}, {inertia}, steps of {step} s"
             );
-            let within = if tilt == 0.0 { 1e-3 } else { 2e-2 };
+            // As its strength ends the little that slides then takes a part of it: 9.41 J by (P9), whatever the step without inertia.
+            let within = if tilt == 0.0 { 1e-3 } else { 2.5e-2 };
+            assert!(motion.account.bond < 40.0 * area * (1.0 + 1e-3), "{}", motion.account.bond);
             agrees!(subject, "G_f A", "J", motion.account.bond, 40.0 * area, within);
         }
     }
