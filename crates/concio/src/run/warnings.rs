@@ -105,6 +105,7 @@ fn of(model: &Model, joints: &[JointRow], outcome: &Outcome) -> Vec<Warning> {
         (WarningKind::Unresolved, flutters(model, planar, outcome)),
         (WarningKind::Unresolved, swings_fast(model, planar, outcome)),
         (WarningKind::Unresolved, crushes_at_once(model, planar, outcome)),
+        (WarningKind::Unresolved, pushed_at_once(model, planar, outcome)),
         (WarningKind::Chance, gives_way_by_chance(model, planar, outcome)),
         (WarningKind::LargeSlip, large_slips(model, outcome)),
         (WarningKind::Creep, creep(joints, outcome)),
@@ -511,6 +512,22 @@ fn crushes_at_once(model: &Model, planar: Option<&Planar>, outcome: &Outcome) ->
             100.0 * part,
             cut(1e3 * planar.step * GRADUAL / part),
             if planar.forces.is_empty() { "" } else { ", with values of `[[force]]` as close" },
+        )
+    })
+}
+
+/// Bonded rigid joints that a beam loads from nothing to their strength within its first step bear all that they can at once; pushed slowly one breaks before the others bear
+/// so much.
+fn pushed_at_once(model: &Model, planar: Option<&Planar>, outcome: &Outcome) -> Option<String> {
+    let planar = planar.filter(|planar| planar.still && matches!(model.beam, Beam::Driven))?;
+    let rigid = |joint: usize| !planar.system.links[joint].law.is_compliant();
+    let first = |time: f64| time > 0.0 && time <= planar.step * (1.0 + NOTHING);
+    let at_once = outcome.bonds.iter().filter(|bond| rigid(bond.joint) && first(bond.cracked)).count();
+    (at_once > 1 && 10 * at_once > outcome.bonds.len()).then(|| {
+        format!(
+            "{at_once} of {} bonds crack in the first step of the push: rigid joints bear all that they can at once then, and the largest force may be twice what they bear \
+             one after the other. Push more slowly, or give the joints springs (`law = \"elastic\"`)",
+            outcome.bonds.len()
         )
     })
 }
