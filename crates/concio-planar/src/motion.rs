@@ -557,10 +557,11 @@ impl Motion {
         let setting = Setting { still: true, step: self.setting.step.max(SETTLING), ..self.setting.clone() };
         let own = std::mem::replace(&mut self.setting, setting);
         let laid = self.places.clone();
+        let holds = self.pairs.iter().any(|pair| self.laws.of(pair.link).holds());
         let (mut stands, mut rests) = (false, 0);
         for number in 1..=most {
             // What nothing breaks has forces that springs of one stiffness would have: bonds break by those, not by what loads do that come at once.
-            self.spares = number == 1;
+            self.spares = number == 1 && holds;
             self.take(self.setting.step, Forcing::default(), CROSSINGS);
             self.spares = false;
             // Points of joints that are open in part move after a step: at rest none have for some.
