@@ -276,8 +276,8 @@ impl Node {
             let decay = ((capacity - stored) / (from - BROKEN * strength)).max(0.0);
             // What has no strength breaks at once.
             let decay = if strength > 0.0 { decay } else { 0.0 };
-            // Where the limit has come to the stretch as pressure fell, the rest is no work of breaking. Nor is what an opening adds to the slide as the joint
-            // loses its stiffness along: δ_c stays as it is.
+            // Where the limit has come to the stretch, as pressure fell or the other mode took of the strength or added to the stretch, the rest is no work of
+            // breaking. But for the pressure δ_c stays as it is.
             let at = limit.max(stretch - way);
             let added = if mode == 0 || pressure == 0.0 { 0.5 * from * (at - limit) } else { 0.0 };
             // Where the limit has come to the stretch and not the stretch to the limit, nothing has gone beyond it.

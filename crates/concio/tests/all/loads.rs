@@ -8,40 +8,30 @@ use concio::run::{Control, prepare_case, run};
 use concio::warning::WarningKind;
 use concio_verified::{agrees, farthest};
 
+use crate::common::planar::{self, running};
 use crate::common::ready::{close, ran, ready};
 
 /// A beam that goes by a micrometre in its first step loads rigid joints to all that they can bear at once; one that goes by a picometre does not.
 #[test]
 fn a_push_that_breaks_rigid_joints_in_its_first_step_is_told() {
     let told = |law: &str, speed: &str| {
-        let wall = format!(
-            r#"model = "planar"
-[[panel]]
-bond = "running"
-courses = 3
-bricks = 2
-brick = {{ length = 0.4, height = 0.2, thickness = 0.3, specific_weight = 22e3 }}
-mortar = {{ bed = 0, head = 0 }}
-[joint]
-bed = {{ {law} }}
-head = {{ {law} }}
-friction = {{ law = "coulomb", static = 0.577, on = "all" }}
-bond = {{ tensile_strength = "0.1 MPa", cohesion = "0.2 MPa", friction_angle = "30 deg" }}
-[load]
+        let bond = "tensile_strength = \"0.1 MPa\", cohesion = \"0.2 MPa\", friction_angle = \"30 deg\"";
+        let rest = format!(
+            r#"[load]
 top = "50 kN/m"
 beam = "driven"
 [motion]
 quasi_static = true
 duration = 0.1
-top = {{ path = {{ displacements = ["0.3 mm"], speed = "{speed} mm/s" }} }}
-"#
+top = {{ path = {{ displacements = ["0.3 mm"], speed = "{speed} mm/s" }} }}"#
         );
+        let wall = running("courses = 3\nbricks = 2", law, "static = 0.577", bond, &rest);
         let out = tempfile::tempdir().expect("a folder");
         let finished = run(&ready(&wall), out.path(), &mut |_| Control::Continue).expect("a run");
         finished.summary["warnings"].to_string().contains("in the first step of the push")
     };
-    assert!(told("law = \"rigid\"", "0.05"));
-    assert!(!told("law = \"rigid\"", "1e-7"));
+    assert!(told(planar::RIGID, "0.05"));
+    assert!(!told(planar::RIGID, "1e-7"));
     assert!(!told("law = \"elastic\", stiffness = \"50 N/mm3\"", "0.05"));
 }
 

@@ -9,8 +9,18 @@ use concio::record::EventKind;
 use concio::run::prepare_case;
 use concio_verified::agrees;
 
-use crate::common::planar::{block, stack};
+use crate::common::planar::{RIGID, STIFF, block, running, stack};
 use crate::common::ready::{channel, close, ran};
+
+/// Ten courses of five bricks with a window.
+const WINDOW: &str = r#"courses = 10
+bricks = 5
+[[panel.opening]]
+x = "1.5 bricks"
+y = "3 courses"
+width = "2 bricks"
+height = "4 courses"
+lintel = { height = "1 courses", bearing = "0.5 bricks" }"#;
 
 /// A bond that stores more at its strength than breaking takes snaps back; both modes are told with the least that is allowed.
 #[test]
@@ -363,34 +373,21 @@ step = {step}
 #[test]
 fn bonded_rigid_joints_bear_what_stiff_springs_do() {
     let leant = |law: &str, step: f64| {
-        let wall = format!(
-            r#"model = "planar"
-[[panel]]
-bond = "running"
-courses = 6
-bricks = 3
-brick = {{ length = 0.4, height = 0.2, thickness = 0.3, specific_weight = 22e3 }}
-mortar = {{ bed = 0, head = 0 }}
-[joint]
-bed = {{ {law} }}
-head = {{ {law} }}
-friction = {{ law = "coulomb", static = 0.6, on = "all" }}
-bond = {{ tensile_strength = "20 kPa", cohesion = "40 kPa", friction_angle = "30 deg" }}
-[motion]
+        let bond = "tensile_strength = \"20 kPa\", cohesion = \"40 kPa\", friction_angle = \"30 deg\"";
+        let rest = format!(
+            r#"[motion]
 duration = 0.55
 base = {{ tilt = {{ acceleration = "2 g", rise = "2 s" }} }}
 [output]
 joints = ["base|p1c1b1", "p1c1b1|p1c1b2"]
 [solver]
-step = {step}
-"#
+step = {step}"#
         );
-        ran(&wall).1
+        ran(&running("courses = 6\nbricks = 3", law, "static = 0.6", bond, &rest)).1
     };
-    let springs = r#"law = "no-tension", stiffness = "500 N/mm3", rigidity = 1, normal_to_shear = 1"#;
-    let expected = leant(springs, 1e-3).first_crack().expect("a crack").cracked;
+    let expected = leant(STIFF, 1e-3).first_crack().expect("a crack").cracked;
     for step in [1e-3, 1e-4] {
-        let outcome = leant(r#"law = "rigid""#, step);
+        let outcome = leant(RIGID, step);
         let found = outcome.first_crack().expect("a crack").cracked;
         let subject = format!("Bonds: running bond of rigid joints leant at 1 g/s in steps of {step} s, first crack");
         agrees!(subject, "springs of 500 N/mm³", "s", found, expected, 2e-3);
@@ -404,121 +401,61 @@ step = {step}
 #[test]
 fn dry_heads_bear_beside_rigid_beds_that_hold() {
     let cracks = |law: &str| {
-        let wall = format!(
-            r#"model = "planar"
-[[panel]]
-bond = "running"
-courses = 10
-bricks = 5
-brick = {{ length = 0.4, height = 0.2, thickness = 0.3, specific_weight = 22e3 }}
-mortar = {{ bed = 0, head = 0 }}
-[[panel.opening]]
-x = "1.5 bricks"
-y = "3 courses"
-width = "2 bricks"
-height = "4 courses"
-lintel = {{ height = "1 courses", bearing = "0.5 bricks" }}
-[joint]
-bed = {{ {law} }}
-head = {{ {law} }}
-friction = {{ law = "coulomb", static = 0.577, dynamic = 0.404, on = "all" }}
-bond = {{ tensile_strength = "20.2 kPa", cohesion = "58.8 kPa", friction_angle = "40 deg" }}
-[[joint.change]]
-at = {{ kind = ["head"] }}
-bond = {{ tensile_strength = 0, cohesion = 0, friction_angle = 0 }}
+        let bond = "tensile_strength = \"20.2 kPa\", cohesion = \"58.8 kPa\", friction_angle = \"40 deg\"";
+        let rest = r#"[[joint.change]]
+at = { kind = ["head"] }
+bond = { tensile_strength = 0, cohesion = 0, friction_angle = 0 }
 [motion]
 duration = 2.2
-base = {{ tilt = {{ acceleration = "0.6 g", rise = "10 s" }} }}
-quasi_static = true
-"#
-        );
+base = { tilt = { acceleration = "0.6 g", rise = "10 s" } }
+quasi_static = true"#;
+        let wall = running(WINDOW, law, "static = 0.577, dynamic = 0.404", bond, rest);
         ran(&wall).1.first_crack().expect("a crack").cracked
     };
-    let springs = r#"law = "no-tension", stiffness = "500 N/mm3", rigidity = 1, normal_to_shear = 1"#;
-    agrees!(
-        "Bonds: window in dry heads and bonded rigid beds leant at 0.06 g/s without inertia; first crack",
-        "springs of 500 N/mm³",
-        "s",
-        cracks(r#"law = "rigid""#),
-        cracks(springs),
-        2e-2
-    );
+    let subject = "Bonds: window in dry heads and bonded rigid beds leant at 0.06 g/s without inertia; first crack";
+    agrees!(subject, "springs of 500 N/mm³", "s", cracks(RIGID), cracks(STIFF), 2e-2);
 }
 
 /// Heads weaker than beds, as perpends are: pulled and sheared at once they crack at their tip, which is told by what both take there.
 #[test]
 fn rigid_heads_that_are_pulled_and_sheared_crack_at_their_tip() {
     let cracks = |law: &str| {
-        let wall = format!(
-            r#"model = "planar"
-[[panel]]
-bond = "running"
-courses = 8
-bricks = 4
-brick = {{ length = 0.4, height = 0.2, thickness = 0.3, specific_weight = 22e3 }}
-mortar = {{ bed = 0, head = 0 }}
-[joint]
-bed = {{ {law} }}
-head = {{ {law} }}
-friction = {{ law = "coulomb", static = 0.577, on = "all" }}
-bond = {{ tensile_strength = "60 kPa", cohesion = "120 kPa", friction_angle = "30 deg" }}
-[[joint.change]]
-at = {{ kind = ["head"] }}
-bond = {{ tensile_strength = "10 kPa", cohesion = "20 kPa" }}
+        let bond = "tensile_strength = \"60 kPa\", cohesion = \"120 kPa\", friction_angle = \"30 deg\"";
+        let rest = r#"[[joint.change]]
+at = { kind = ["head"] }
+bond = { tensile_strength = "10 kPa", cohesion = "20 kPa" }
 [motion]
 duration = 0.45
-base = {{ tilt = {{ acceleration = "3 g", rise = "2 s" }} }}
-"#
-        );
+base = { tilt = { acceleration = "3 g", rise = "2 s" } }"#;
+        let wall = running("courses = 8\nbricks = 4", law, "static = 0.577", bond, rest);
         ran(&wall).1.first_crack().expect("a crack").cracked
     };
-    let springs = r#"law = "no-tension", stiffness = "500 N/mm3", rigidity = 1, normal_to_shear = 1"#;
-    agrees!(
-        "Bonds: running bond with rigid heads weaker than its beds leant at 1.5 g/s; first crack",
-        "springs of 500 N/mm³",
-        "s",
-        cracks(r#"law = "rigid""#),
-        cracks(springs),
-        5e-3
-    );
+    let subject = "Bonds: running bond with rigid heads weaker than its beds leant at 1.5 g/s; first crack";
+    agrees!(subject, "springs of 500 N/mm³", "s", cracks(RIGID), cracks(STIFF), 5e-3);
 }
 
 /// Weak bonds under loads far above them rest as those of stiff springs do: under even loads heads bear nothing, and beside an opening as many joints crack.
 #[test]
 fn weakly_bonded_rigid_joints_rest_as_stiff_springs_do() {
     let rests = |law: &str, panel: &str, load: u32, bond: [f64; 2], base: &str| {
-        let wall = format!(
-            r#"model = "planar"
-[[panel]]
-bond = "running"
-brick = {{ length = 0.4, height = 0.2, thickness = 0.3, specific_weight = 22e3 }}
-mortar = {{ bed = 0, head = 0 }}
-{panel}
-[joint]
-bed = {{ {law} }}
-head = {{ {law} }}
-friction = {{ law = "coulomb", static = 0.577, on = "all" }}
-bond = {{ tensile_strength = {}, cohesion = {}, friction_angle = "30 deg" }}
-[load]
+        let [tension, cohesion] = bond;
+        let bond = format!("tensile_strength = {tension}, cohesion = {cohesion}, friction_angle = \"30 deg\"");
+        let rest = format!(
+            r#"[load]
 top = "{load} kN/m"
 beam = {{ mass = {} }}
 [motion]
 quasi_static = true
 {base}
 [output]
-joints = ["p1c3b1|p1c3b2"]
-"#,
-            bond[0],
-            bond[1],
+joints = ["p1c3b1|p1c3b2"]"#,
             120.0 * f64::from(load)
         );
-        ran(&wall).1
+        ran(&running(panel, law, "static = 0.577", &bond, &rest)).1
     };
-    let springs = r#"law = "no-tension", stiffness = "500 N/mm3", rigidity = 1, normal_to_shear = 1"#;
-    let rigid = r#"law = "rigid""#;
     let lean = "duration = 4\nbase = { tilt = { acceleration = \"1 g\", rise = \"100 s\" } }";
     let even = |law: &str| rests(law, "courses = 6\nbricks = 3", 300, [20e3, 50e3], lean);
-    let outcome = even(rigid);
+    let outcome = even(RIGID);
     assert!(channel(&outcome, "joint/p1c3b1|p1c3b2/pressure")[0].abs() < 1.0);
     let crack = |outcome: &Outcome| outcome.first_crack().expect("a crack").cracked;
     agrees!(
@@ -526,19 +463,17 @@ joints = ["p1c3b1|p1c3b2"]
         "springs of 500 N/mm³",
         "s",
         crack(&outcome),
-        crack(&even(springs)),
+        crack(&even(STIFF)),
         6e-2
     );
-    let window = "courses = 10\nbricks = 5\n[[panel.opening]]\nx = \"1.5 bricks\"\ny = \"3 courses\"\nwidth = \"2 bricks\"\nheight = \"4 courses\"\n\
-                  lintel = { height = \"1 courses\", bearing = \"0.5 bricks\" }";
     for (load, cohesion) in [(100, 80e3), (300, 120e3)] {
         let cracked = |law: &str| {
-            let outcome = rests(law, window, load, [40e3, cohesion], "duration = 0.04");
+            let outcome = rests(law, WINDOW, load, [40e3, cohesion], "duration = 0.04");
             outcome.bonds.iter().filter(|bond| bond.cracked == 0.0).count() as f64
         };
         let subject =
             format!("Bonds: rigid joints round a window under {load} kN/m; joints that crack under the loads");
-        agrees!(subject, "springs of 500 N/mm³", "", cracked(rigid), cracked(springs), 0.15);
+        agrees!(subject, "springs of 500 N/mm³", "", cracked(RIGID), cracked(STIFF), 0.15);
     }
 }
 
